@@ -1,0 +1,25 @@
+# Third-party libraries, all from Debian 12. Each stays private to the folder named beside it.
+
+find_package(fmt REQUIRED)            # core
+find_package(TBB REQUIRED)            # core
+find_package(OpenImageIO REQUIRED)    # image
+find_package(muparser REQUIRED)       # light
+find_package(nlohmann_json REQUIRED)  # light, apps
+find_package(assimp REQUIRED)         # scene
+find_package(glm REQUIRED)            # render
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(epoxy REQUIRED IMPORTED_TARGET epoxy)  # render
+pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)      # render
+if(SHLIGHT_WITH_APPS)
+  find_package(CLI11 REQUIRED)
+  find_package(spdlog REQUIRED)
+endif()
+if(SHLIGHT_WITH_TESTS)
+  find_package(GTest REQUIRED)
+endif()
+if(SHLIGHT_WITH_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+endif()
+
+# Debian's OpenImageIO target names /usr/include/opencv4, which its package does not bring.
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "")

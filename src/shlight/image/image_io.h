@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "shlight/core/fence.h"
+#include "shlight/image/image.h"
+
+namespace shlight {
+
+// Reading and writing pictures, through OpenImageIO.
+
+struct LoadImageParams {
+  std::uint64_t max_pixels = 256ull << 20;  // 16384 x 16384; a bigger picture is refused before memory is taken
+  FenceLimits fence;                        // pictures are decoded in a process of their own
+};
+
+// Reads a picture of any format that OpenImageIO knows into linear Rec. 709. Float and half-float formats are taken to be
+// linear, RGBE decodes m · 2^(e-136), formats of integers are taken to be sRGB. A picture of one channel is grey; alpha
+// is left out. Values are as the file has them, NaN, infinite and negative ones too: see pixel_report.h. Throws Error.
+Image load_image(const std::filesystem::path& path, const LoadImageParams& params = {});
+
+// Reads a picture as eight-bit sRGB with alpha, from a file or from the bytes of one. `name` is used in errors and, by
+// its ending, to tell the format where the bytes do not. Throws Error.
+Image8 load_image8(const std::filesystem::path& path, const LoadImageParams& params = {});
+Image8 load_image8(std::span<const std::byte> bytes, const std::string& name, const LoadImageParams& params = {});
+
+// Writes linear values: .exr in 16-bit float (half) by default, also .hdr and .tif as OpenImageIO can. Whole or not at
+// all; throws Error.
+void save_image(const std::filesystem::path& path, const Image& image);
+
+// Writes an sRGB picture without alpha as .png. Whole or not at all; throws Error.
+void save_image8(const std::filesystem::path& path, const Image8& image);
+
+}  // namespace shlight
