@@ -20,11 +20,11 @@ template <class A, class B>
 }
 }  // namespace shlight::detail
 
-#define SHLIGHT_ASSERT_OP(a, op, b)                                                                   \
-  do {                                                                                                \
-    const auto& shlight_a = (a);                                                                      \
-    const auto& shlight_b = (b);                                                                      \
-    if (!(shlight_a op shlight_b))                                                                    \
+#define SHLIGHT_ASSERT_OP(a, op, b)                                                                    \
+  do {                                                                                                 \
+    const auto& shlight_a = (a);                                                                       \
+    const auto& shlight_b = (b);                                                                       \
+    if (!(shlight_a op shlight_b))                                                                     \
       ::shlight::detail::contract_broken(__FILE__, __LINE__, #a " " #op " " #b, shlight_a, shlight_b); \
   } while (false)
 #endif

@@ -63,8 +63,8 @@ void enter_fence(const FenceLimits& limits) {
 #endif
 }
 
-[[noreturn]] void run_child(const FenceLimits& limits, const std::function<void(FencedBytes&)>& work, FencedBytes& bytes,
-                            int done_pipe) {
+[[noreturn]] void run_child(const FenceLimits& limits, const std::function<void(FencedBytes&)>& work,
+                            FencedBytes& bytes, int done_pipe) {
   enter_fence(limits);
   int code = kDone;
   std::string message;
@@ -174,7 +174,8 @@ FencedBytes run_fenced(std::string_view subject, std::string_view accepted, cons
   }
 
   if (!in_time) throw Error(subject, fmt::format("was not read within {} s", limits.seconds), accepted);
-  if (!WIFEXITED(status)) throw Error(subject, fmt::format("is malformed (its reader crashed: {})", strsignal(WTERMSIG(status))), accepted);
+  if (!WIFEXITED(status))
+    throw Error(subject, fmt::format("is malformed (its reader crashed: {})", strsignal(WTERMSIG(status))), accepted);
   const int code = WEXITSTATUS(status);
   if (code == kOutOfMemory)
     throw Error(subject, "needs more memory than its reader may take",

@@ -12,8 +12,8 @@ namespace shlight {
 // take all memory on some malformed files; behind the fence that costs one clear Error.
 
 struct FenceLimits {
-  double seconds = 120;                         // of wall time, after which the work is killed
-  std::uint64_t memory_bytes = 8ull << 30;      // of address space on top of what the process had
+  double seconds = 120;                     // of wall time, after which the work is killed
+  std::uint64_t memory_bytes = 8ull << 30;  // of address space on top of what the process had
 };
 
 // Memory that the process and a child which it forked both see. Grows in the child; read by the parent.

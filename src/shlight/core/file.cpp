@@ -57,8 +57,7 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_
   while (done < bytes.size()) {
     const ssize_t n = ::read(file.get(), bytes.data() + done, bytes.size() - done);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0)
-      throw Error(path.string(), fmt::format("cannot be read ({})", std::strerror(errno)), "a readable file");
+    if (n < 0) throw Error(path.string(), fmt::format("cannot be read ({})", std::strerror(errno)), "a readable file");
     if (n == 0) break;  // the file shrank since it was measured
     done += static_cast<std::size_t>(n);
   }

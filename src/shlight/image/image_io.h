@@ -18,9 +18,10 @@ struct LoadImageParams {
   FenceLimits fence;                        // pictures are decoded in a process of their own
 };
 
-// Reads a picture of any format that OpenImageIO knows into linear Rec. 709. Float and half-float formats are taken to be
-// linear, RGBE decodes m · 2^(e-136), formats of integers are taken to be sRGB. A picture of one channel is grey; alpha
-// is left out. Values are as the file has them, NaN, infinite and negative ones too: see pixel_report.h. Throws Error.
+// Reads a picture of any format that OpenImageIO knows into linear Rec. 709. Float and half-float formats are taken to
+// be linear, RGBE decodes m · 2^(e-136), formats of integers are taken to be sRGB. A picture of one channel is grey;
+// alpha is left out. Values are as the file has them, NaN, infinite and negative ones too: see pixel_report.h. Throws
+// Error.
 Image load_image(const std::filesystem::path& path, const LoadImageParams& params = {});
 
 // Reads a picture as eight-bit sRGB with alpha, from a file or from the bytes of one. `name` is used in errors and, by

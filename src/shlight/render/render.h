@@ -22,11 +22,11 @@ struct Camera {
 struct RenderParams {
   int width = 1280;
   int height = 720;
-  int bands = 3;                // of the irradiance, 1 to 10
+  int bands = 3;  // of the irradiance, 1 to 10
   Camera camera;
-  double rotate_light = 0;      // degrees about +Y, counter-clockwise seen from above
-  double exposure = 0;          // stops, on top of what makes the light's mean radiance middle grey
-  int frames = 1;               // more: drawn with the view turning, for timing
+  double rotate_light = 0;  // degrees about +Y, counter-clockwise seen from above
+  double exposure = 0;      // stops, on top of what makes the light's mean radiance middle grey
+  int frames = 1;           // more: drawn with the view turning, for timing
   bool show_background = true;
 };
 
@@ -37,14 +37,14 @@ struct RenderLight {
 };
 
 struct RenderResult {
-  Image radiance;           // linear, as lit, without exposure
-  Image8 picture;           // exposed, tone mapped, sRGB
-  double frame_ms = 0;      // median over the frames
+  Image radiance;       // linear, as lit, without exposure
+  Image8 picture;       // exposed, tone mapped, sRGB
+  double frame_ms = 0;  // median over the frames
   std::string gl_renderer;
 };
 
-// Draws `scene` under `light` by the irradiance method, on OpenGL ES 3.0 without a window. Throws Error where there is no
-// such OpenGL; Cancelled.
+// Draws `scene` under `light` by the irradiance method, on OpenGL ES 3.0 without a window. Throws Error where there is
+// no such OpenGL; Cancelled.
 RenderResult render_irradiance(const Scene& scene, const RenderLight& light, const RenderParams& params,
                                const Progress& progress = {});
 

@@ -29,8 +29,9 @@ struct Material {
 };
 
 // Triangles of one material. All of a loaded mesh's values are finite and every index is below positions.size();
-// normals have unit length and as many as positions; texcoords are empty or as many as positions, (0, 0) at the top left
-// of the picture; colors (of vertices, linear Rec. 709, they multiply the material's) are empty or as many as positions.
+// normals have unit length and as many as positions; texcoords are empty or as many as positions, (0, 0) at the top
+// left of the picture; colors (of vertices, linear Rec. 709, they multiply the material's) are empty or as many as
+// positions.
 struct Mesh {
   std::string name;
   std::vector<Vec3f> positions;

@@ -10,10 +10,14 @@
 namespace shlight {
 
 // n bands are the degrees l = 0 … n-1, with n² coefficients in all.
-constexpr int num_coefficients(int bands) { return bands * bands; }
+constexpr int num_coefficients(int bands) {
+  return bands * bands;
+}
 
 // Where the coefficient of degree l and -l <= m <= l stands.
-constexpr int coefficient_index(int l, int m) { return l * (l + 1) + m; }
+constexpr int coefficient_index(int l, int m) {
+  return l * (l + 1) + m;
+}
 
 // The coefficients of one function on the sphere, n² values of T in index order. T is double, or Rgb for a light.
 template <class T>

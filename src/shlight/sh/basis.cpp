@@ -1,0 +1,266 @@
+#include "shlight/sh/basis.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "shlight/sh/clones.h"
+
+// With p_l^m = K_l^m P_l^m / sin^m θ · √(2 if m > 0), a polynomial in z, the recursion of the Legendre functions
+// becomes
+//
+//     p_0^0 = √(1/4π)       p_m^m = p_{m−1}^{m−1} √((2m+1)/2m) · √(2 if m = 1)
+//     p_l^m = a_l^m z p_{l−1}^m − b_l^m p_{l−2}^m,
+//         a_l^m = √((4l²−1)/(l²−m²)),   b_l^m = √((2l+1)/(2l−3) · ((l−1)²−m²)/(l²−m²))   (b_{m+1}^m = 0)
+//
+// and sin^m θ cos(mφ), sin^m θ sin(mφ) are the real and imaginary part of (x + iy)^m. Nothing in it grows like a
+// factorial, so that it holds at any number of bands.
+
+namespace shlight {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// √v for v >= 0; at compile time by Newton's iteration from above until it stands still.
+constexpr double square_root(double v) {
+  if (!std::is_constant_evaluated()) return std::sqrt(v);
+  if (v == 0) return 0;
+  double r = v > 1 ? v : 1;
+  for (int i = 0; i < 200; ++i) {
+    const double next = 0.5 * (r + v / r);
+    if (next >= r) break;
+    r = next;
+  }
+  return r;
+}
+
+constexpr double kY00 = square_root(1 / (4 * kPi));
+
+// p_m^m / p_{m−1}^{m−1}
+constexpr double start_ratio(int m) {
+  return square_root((m == 1 ? 2.0 : 1.0) * (2.0 * m + 1) / (2.0 * m));
+}
+
+constexpr double factor_a(int l, int m) {
+  return square_root((4.0 * l * l - 1) / (double(l) * l - double(m) * m));
+}
+
+constexpr double factor_b(int l, int m) {
+  if (l == m + 1) return 0;
+  return square_root((2.0 * l + 1) / (2.0 * l - 3) * ((l - 1.0) * (l - 1.0) - double(m) * m) /
+                     (double(l) * l - double(m) * m));
+}
+
+// The factors of the recursion for the first N bands.
+template <int N>
+struct RecursionFactors {
+  std::array<double, N> start{};  // p_m^m
+  std::array<std::array<double, N>, N> a{}, b{};
+  constexpr RecursionFactors() {
+    start[0] = kY00;
+    for (int m = 1; m < N; ++m) start[m] = start[m - 1] * start_ratio(m);
+    for (int m = 0; m < N; ++m)
+      for (int l = m + 1; l < N; ++l) a[l][m] = factor_a(l, m), b[l][m] = factor_b(l, m);
+  }
+};
+
+// Calls f(0), f(1) … f(Count-1) with compile-time arguments: a loop that is always unrolled.
+template <int Count, class F>
+[[gnu::always_inline]] inline void unrolled(F&& f) {
+  [&]<int... I>(std::integer_sequence<int, I...>) [[gnu::always_inline]] {
+    (f(std::integral_constant<int, I>{}), ...);
+  }
+  (std::make_integer_sequence<int, Count>{});
+}
+
+// Y of one direction as straight-line code, Y_i to values[i · stride].
+template <int Bands, class T>
+[[gnu::always_inline]] inline void eval_unrolled(T x, T y, T z, T* values, std::size_t stride) {
+  static constexpr RecursionFactors<Bands> kFactors;
+  T c = 1, s = 0;  // real and imaginary part of (x + iy)^m
+  unrolled<Bands>([&](auto m_constant) [[gnu::always_inline]] {
+    constexpr int m = m_constant;
+    const auto store = [&](int l, T p) [[gnu::always_inline]] {
+      values[static_cast<std::size_t>(l * (l + 1) + m) * stride] = p * c;
+      if constexpr (m > 0) values[static_cast<std::size_t>(l * (l + 1) - m) * stride] = p * s;
+    };
+    T before = 0, p = static_cast<T>(kFactors.start[m]);
+    store(m, p);
+    unrolled<Bands - 1 - m>([&](auto k) [[gnu::always_inline]] {
+      constexpr int l = m + 1 + k;
+      T next = static_cast<T>(kFactors.a[l][m]) * z * p;
+      if constexpr (l > m + 1) next -= static_cast<T>(kFactors.b[l][m]) * before;
+      before = p;
+      p = next;
+      store(l, p);
+    });
+    const T c_next = x * c - y * s;
+    s = x * s + y * c;
+    c = c_next;
+  });
+}
+
+constexpr int kUnrolledBands = 6;
+
+// Calls f with `bands` as a compile-time number; false where it is too large to be one.
+template <class F>
+[[gnu::always_inline]] inline bool with_constant_bands(int bands, F&& f) {
+  switch (bands) {
+    case 0:
+      return true;
+    case 1:
+      f(std::integral_constant<int, 1>{});
+      return true;
+    case 2:
+      f(std::integral_constant<int, 2>{});
+      return true;
+    case 3:
+      f(std::integral_constant<int, 3>{});
+      return true;
+    case 4:
+      f(std::integral_constant<int, 4>{});
+      return true;
+    case 5:
+      f(std::integral_constant<int, 5>{});
+      return true;
+    case 6:
+      f(std::integral_constant<int, 6>{});
+      return true;
+    default:
+      return false;
+  }
+}
+
+// The recursion on a block of directions: each line of it runs along the block.
+constexpr std::size_t kBlock = 64;
+
+SHLIGHT_CLONES void eval_block_recursive(int bands, std::size_t count, const float* x, const float* y, const float* z,
+                                         float* values, std::size_t stride) {
+  float c[kBlock], s[kBlock], before[kBlock], p[kBlock];
+  for (std::size_t j = 0; j < kBlock; ++j) c[j] = 1, s[j] = 0;
+  double start = kY00;
+  for (int m = 0; m < bands; ++m) {
+    if (m > 0) {
+      start *= start_ratio(m);
+      for (std::size_t j = 0; j < count; ++j) {
+        const float next = x[j] * c[j] - y[j] * s[j];
+        s[j] = x[j] * s[j] + y[j] * c[j];
+        c[j] = next;
+      }
+    }
+    for (std::size_t j = 0; j < count; ++j) before[j] = 0, p[j] = static_cast<float>(start);
+    for (int l = m; l < bands; ++l) {
+      if (l > m) {
+        const float a = static_cast<float>(factor_a(l, m)), b = static_cast<float>(factor_b(l, m));
+        for (std::size_t j = 0; j < count; ++j) {
+          const float next = a * z[j] * p[j] - b * before[j];
+          before[j] = p[j];
+          p[j] = next;
+        }
+      }
+      float* plus = values + static_cast<std::size_t>(coefficient_index(l, m)) * stride;
+      float* minus = values + static_cast<std::size_t>(coefficient_index(l, -m)) * stride;
+      for (std::size_t j = 0; j < count; ++j) minus[j] = p[j] * s[j];
+      for (std::size_t j = 0; j < count; ++j) plus[j] = p[j] * c[j];
+    }
+  }
+}
+
+template <int Bands>
+SHLIGHT_CLONES void eval_many_unrolled(std::size_t count, const float* __restrict x, const float* __restrict y,
+                                       const float* __restrict z, float* __restrict values) {
+#pragma GCC ivdep
+  for (std::size_t j = 0; j < count; ++j) eval_unrolled<Bands>(x[j], y[j], z[j], values + j, count);
+}
+
+template <class T, class Sum>
+Sum reconstruct_sum(const Coefficients<Sum>& coefficients, Vec3<T> direction) {
+  std::vector<T> basis(coefficients.size());
+  eval_basis(coefficients.bands(), direction, std::span<T>(basis));
+  Sum sum{};
+  for (std::size_t i = 0; i < basis.size(); ++i) sum = sum + basis[i] * coefficients[i];
+  return sum;
+}
+
+}  // namespace
+
+template <class T>
+void eval_basis_recursive(int bands, Vec3<T> direction, std::span<T> values) {
+  assert(static_cast<int>(values.size()) == num_coefficients(bands));
+  const auto at = [&](int l, int m) -> T& { return values[static_cast<std::size_t>(coefficient_index(l, m))]; };
+  T c = 1, s = 0, start = static_cast<T>(kY00);
+  for (int m = 0; m < bands; ++m) {
+    if (m > 0) {
+      start *= static_cast<T>(start_ratio(m));
+      const T next = direction.x * c - direction.y * s;
+      s = direction.x * s + direction.y * c;
+      c = next;
+    }
+    T before = 0, p = start;
+    for (int l = m; l < bands; ++l) {
+      if (l > m) {
+        const T a = static_cast<T>(factor_a(l, m)), b = static_cast<T>(factor_b(l, m));
+        before = std::exchange(p, a * direction.z * p - b * before);
+      }
+      at(l, -m) = p * s;
+      at(l, m) = p * c;
+    }
+  }
+}
+
+template <class T>
+void eval_basis(int bands, Vec3<T> direction, std::span<T> values) {
+  assert(static_cast<int>(values.size()) == num_coefficients(bands));
+  const bool done = with_constant_bands(
+      bands, [&](auto constant) { eval_unrolled<constant>(direction.x, direction.y, direction.z, values.data(), 1); });
+  if (!done) eval_basis_recursive(bands, direction, values);
+}
+
+template void eval_basis_recursive(int, Vec3<float>, std::span<float>);
+template void eval_basis_recursive(int, Vec3<double>, std::span<double>);
+template void eval_basis(int, Vec3<float>, std::span<float>);
+template void eval_basis(int, Vec3<double>, std::span<double>);
+
+void eval_basis(int bands, std::span<const float> x, std::span<const float> y, std::span<const float> z,
+                std::span<float> values) {
+  const std::size_t count = x.size();
+  assert(y.size() == count && z.size() == count && values.size() == count * num_coefficients(bands));
+  const bool done = with_constant_bands(
+      bands, [&](auto constant) { eval_many_unrolled<constant>(count, x.data(), y.data(), z.data(), values.data()); });
+  if (done) return;
+  for (std::size_t j = 0; j < count; j += kBlock)
+    eval_block_recursive(bands, std::min(kBlock, count - j), &x[j], &y[j], &z[j], &values[j], count);
+}
+
+void eval_normalized_legendre(int bands, double z, double s, std::span<double> p) {
+  assert(static_cast<int>(p.size()) == bands * (bands + 1) / 2);
+  const auto at = [&](int l, int m) -> double& { return p[static_cast<std::size_t>(l * (l + 1) / 2 + m)]; };
+  double start = kY00;
+  for (int m = 0; m < bands; ++m) {
+    if (m > 0) start *= s * start_ratio(m);
+    at(m, m) = start;
+    for (int l = m + 1; l < bands; ++l)
+      at(l, m) = factor_a(l, m) * z * at(l - 1, m) - (l > m + 1 ? factor_b(l, m) * at(l - 2, m) : 0);
+  }
+}
+
+double reconstruct(const Coefficients<double>& coefficients, Vec3d direction) {
+  return reconstruct_sum(coefficients, direction);
+}
+
+Rgb reconstruct(const RgbCoefficients& coefficients, Vec3d direction) {
+  return reconstruct_sum(coefficients, direction);
+}
+
+void add_delta(Vec3d direction, Rgb value, RgbCoefficients& coefficients) {
+  std::vector<double> basis(coefficients.size());
+  eval_basis(coefficients.bands(), direction, std::span<double>(basis));
+  for (std::size_t i = 0; i < basis.size(); ++i) coefficients[i] += basis[i] * value;
+}
+
+}  // namespace shlight
