@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -56,60 +57,65 @@ constexpr double factor_b(int l, int m) {
                      (double(l) * l - double(m) * m));
 }
 
-// The factors of the recursion for the first N bands.
-template <int N>
-struct RecursionFactors {
-  std::array<double, N> start{};  // p_m^m
-  std::array<std::array<double, N>, N> a{}, b{};
-  constexpr RecursionFactors() {
+// The factors of the recursion for the first bands, made once at compile time.
+struct RecursionTable {
+  static constexpr int kBands = 20;
+  std::array<double, kBands> start{};  // p_m^m
+  std::array<std::array<double, kBands>, kBands> a{}, b{};
+  constexpr RecursionTable() {
     start[0] = kY00;
-    for (int m = 1; m < N; ++m) start[m] = start[m - 1] * start_ratio(m);
-    for (int m = 0; m < N; ++m)
-      for (int l = m + 1; l < N; ++l) a[l][m] = factor_a(l, m), b[l][m] = factor_b(l, m);
+    for (int m = 1; m < kBands; ++m) start[m] = start[m - 1] * start_ratio(m);
+    for (int m = 0; m < kBands; ++m)
+      for (int l = m + 1; l < kBands; ++l) a[l][m] = factor_a(l, m), b[l][m] = factor_b(l, m);
   }
 };
+constexpr RecursionTable kTable;
+
+// a_l^m and b_l^m at run time, looked up where they can be.
+struct FactorPair {
+  double a, b;
+};
+inline FactorPair factors(int l, int m) {
+  if (l < RecursionTable::kBands) return {kTable.a[l][m], kTable.b[l][m]};
+  return {factor_a(l, m), factor_b(l, m)};
+}
 
 // Calls f(0), f(1) … f(Count-1) with compile-time arguments: a loop that is always unrolled.
 template <int Count, class F>
-[[gnu::always_inline]] inline void unrolled(F&& f) {
-  [&]<int... I>(std::integer_sequence<int, I...>) [[gnu::always_inline]] {
+SHLIGHT_ALWAYS_INLINE inline void unrolled(F&& f) {
+  [&]<int... I>(std::integer_sequence<int, I...>) SHLIGHT_ALWAYS_INLINE {
     (f(std::integral_constant<int, I>{}), ...);
   }
   (std::make_integer_sequence<int, Count>{});
 }
 
-// Y of one direction as straight-line code, Y_i to values[i · stride].
-template <int Bands, class T>
-[[gnu::always_inline]] inline void eval_unrolled(T x, T y, T z, T* values, std::size_t stride) {
-  static constexpr RecursionFactors<Bands> kFactors;
-  T c = 1, s = 0;  // real and imaginary part of (x + iy)^m
-  unrolled<Bands>([&](auto m_constant) [[gnu::always_inline]] {
+// Y of one direction, or of a vector of them, as straight-line code; calls store(i, Y_i).
+template <int Bands, class Real, class Vector, class Store>
+SHLIGHT_ALWAYS_INLINE inline void eval_unrolled(const Vector& x, const Vector& y, const Vector& z, Store&& store) {
+  Vector c = x * Real(0) + Real(1), s = x * Real(0);  // real and imaginary part of (x + iy)^m
+  unrolled<Bands>([&](auto m_constant) SHLIGHT_ALWAYS_INLINE {
     constexpr int m = m_constant;
-    const auto store = [&](int l, T p) [[gnu::always_inline]] {
-      values[static_cast<std::size_t>(l * (l + 1) + m) * stride] = p * c;
-      if constexpr (m > 0) values[static_cast<std::size_t>(l * (l + 1) - m) * stride] = p * s;
-    };
-    T before = 0, p = static_cast<T>(kFactors.start[m]);
-    store(m, p);
-    unrolled<Bands - 1 - m>([&](auto k) [[gnu::always_inline]] {
-      constexpr int l = m + 1 + k;
-      T next = static_cast<T>(kFactors.a[l][m]) * z * p;
-      if constexpr (l > m + 1) next -= static_cast<T>(kFactors.b[l][m]) * before;
-      before = p;
-      p = next;
-      store(l, p);
+    Vector before = x * Real(0), p = before + static_cast<Real>(kTable.start[m]);
+    unrolled<Bands - m>([&](auto k) SHLIGHT_ALWAYS_INLINE {
+      constexpr int l = m + k;
+      if constexpr (l > m) {
+        Vector next = static_cast<Real>(kTable.a[l][m]) * z * p;
+        if constexpr (l > m + 1) next -= static_cast<Real>(kTable.b[l][m]) * before;
+        before = p;
+        p = next;
+      }
+      store(l * (l + 1) + m, m == 0 ? p : p * c);
+      if constexpr (m > 0) store(l * (l + 1) - m, p * s);
     });
-    const T c_next = x * c - y * s;
+    const Vector next = x * c - y * s;
     s = x * s + y * c;
-    c = c_next;
+    c = next;
   });
 }
 
-constexpr int kUnrolledBands = 6;
-
 // Calls f with `bands` as a compile-time number; false where it is too large to be one.
 template <class F>
-[[gnu::always_inline]] inline bool with_constant_bands(int bands, F&& f) {
+SHLIGHT_ALWAYS_INLINE inline bool with_constant_bands(int bands, F&& f) {
   switch (bands) {
     case 0:
       return true;
@@ -156,7 +162,8 @@ SHLIGHT_CLONES void eval_block_recursive(int bands, std::size_t count, const flo
     for (std::size_t j = 0; j < count; ++j) before[j] = 0, p[j] = static_cast<float>(start);
     for (int l = m; l < bands; ++l) {
       if (l > m) {
-        const float a = static_cast<float>(factor_a(l, m)), b = static_cast<float>(factor_b(l, m));
+        const FactorPair factor = factors(l, m);
+        const float a = static_cast<float>(factor.a), b = static_cast<float>(factor.b);
         for (std::size_t j = 0; j < count; ++j) {
           const float next = a * z[j] * p[j] - b * before[j];
           before[j] = p[j];
@@ -171,11 +178,26 @@ SHLIGHT_CLONES void eval_block_recursive(int bands, std::size_t count, const flo
   }
 }
 
+// As wide as the widest registers; on lesser processors the compiler makes several of one.
+constexpr std::size_t kLanes = 16;
+typedef float Lanes __attribute__((vector_size(kLanes * sizeof(float))));
+
 template <int Bands>
-SHLIGHT_CLONES void eval_many_unrolled(std::size_t count, const float* __restrict x, const float* __restrict y,
-                                       const float* __restrict z, float* __restrict values) {
-#pragma GCC ivdep
-  for (std::size_t j = 0; j < count; ++j) eval_unrolled<Bands>(x[j], y[j], z[j], values + j, count);
+SHLIGHT_CLONES void eval_many_unrolled(std::size_t count, const float* x, const float* y, const float* z,
+                                       float* values) {
+  // `lanes` of them exist; a compile-time number for all but the last few.
+  const auto eval = [&](std::size_t j, auto lanes) SHLIGHT_ALWAYS_INLINE {
+    Lanes vx = {}, vy = {}, vz = {};
+    std::memcpy(&vx, x + j, lanes * sizeof(float));
+    std::memcpy(&vy, y + j, lanes * sizeof(float));
+    std::memcpy(&vz, z + j, lanes * sizeof(float));
+    eval_unrolled<Bands, float>(vx, vy, vz, [&](int i, const Lanes& value) SHLIGHT_ALWAYS_INLINE {
+      std::memcpy(values + static_cast<std::size_t>(i) * count + j, &value, lanes * sizeof(float));
+    });
+  };
+  std::size_t j = 0;
+  for (; j + kLanes <= count; j += kLanes) eval(j, std::integral_constant<std::size_t, kLanes>{});
+  if (j < count) eval(j, count - j);
 }
 
 template <class T, class Sum>
@@ -204,8 +226,8 @@ void eval_basis_recursive(int bands, Vec3<T> direction, std::span<T> values) {
     T before = 0, p = start;
     for (int l = m; l < bands; ++l) {
       if (l > m) {
-        const T a = static_cast<T>(factor_a(l, m)), b = static_cast<T>(factor_b(l, m));
-        before = std::exchange(p, a * direction.z * p - b * before);
+        const FactorPair factor = factors(l, m);
+        before = std::exchange(p, static_cast<T>(factor.a) * direction.z * p - static_cast<T>(factor.b) * before);
       }
       at(l, -m) = p * s;
       at(l, m) = p * c;
@@ -216,8 +238,11 @@ void eval_basis_recursive(int bands, Vec3<T> direction, std::span<T> values) {
 template <class T>
 void eval_basis(int bands, Vec3<T> direction, std::span<T> values) {
   assert(static_cast<int>(values.size()) == num_coefficients(bands));
-  const bool done = with_constant_bands(
-      bands, [&](auto constant) { eval_unrolled<constant>(direction.x, direction.y, direction.z, values.data(), 1); });
+  const bool done = with_constant_bands(bands, [&](auto constant) SHLIGHT_ALWAYS_INLINE {
+    eval_unrolled<constant, T>(direction.x, direction.y, direction.z, [&](int i, T value) SHLIGHT_ALWAYS_INLINE {
+      values[static_cast<std::size_t>(i)] = value;
+    });
+  });
   if (!done) eval_basis_recursive(bands, direction, values);
 }
 
@@ -244,8 +269,10 @@ void eval_normalized_legendre(int bands, double z, double s, std::span<double> p
   for (int m = 0; m < bands; ++m) {
     if (m > 0) start *= s * start_ratio(m);
     at(m, m) = start;
-    for (int l = m + 1; l < bands; ++l)
-      at(l, m) = factor_a(l, m) * z * at(l - 1, m) - (l > m + 1 ? factor_b(l, m) * at(l - 2, m) : 0);
+    for (int l = m + 1; l < bands; ++l) {
+      const auto [a, b] = factors(l, m);
+      at(l, m) = a * z * at(l - 1, m) - (l > m + 1 ? b * at(l - 2, m) : 0);
+    }
   }
 }
 

@@ -9,3 +9,6 @@
 #else
 #define SHLIGHT_CLONES
 #endif
+
+// For the pieces of such a function: lambdas and templates that must end up inside it.
+#define SHLIGHT_ALWAYS_INLINE __attribute__((always_inline))
