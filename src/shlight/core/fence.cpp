@@ -109,6 +109,11 @@ bool wait_for_child(int pipe, double seconds) {
 
 }  // namespace
 
+FenceLimits limits_for_file(FenceLimits limits, std::uintmax_t file_bytes) {
+  limits.seconds = std::min(limits.seconds, 5 + static_cast<double>(file_bytes) * 1e-6);
+  return limits;
+}
+
 FencedBytes::FencedBytes() : fd_(::memfd_create("shlight-fence", MFD_CLOEXEC)) {
   if (fd_ < 0) throw Error("fence", "cannot make shared memory", "a Linux system with memfd_create");
 }
@@ -173,7 +178,7 @@ FencedBytes run_fenced(std::string_view subject, std::string_view accepted, cons
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
 
-  if (!in_time) throw Error(subject, fmt::format("was not read within {} s", limits.seconds), accepted);
+  if (!in_time) throw Error(subject, fmt::format("was not read within {:.3g} s", limits.seconds), accepted);
   if (!WIFEXITED(status))
     throw Error(subject, fmt::format("is malformed (its reader crashed: {})", strsignal(WTERMSIG(status))), accepted);
   const int code = WEXITSTATUS(status);

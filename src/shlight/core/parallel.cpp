@@ -1,7 +1,10 @@
 #include "shlight/core/parallel.h"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include <algorithm>
 
 #include "shlight/core/assert.h"
 
@@ -14,7 +17,9 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     for (std::size_t i = 0; i < count; ++i) body(i);
     return;
   }
-  tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : threads);
+  // More threads than processors gain nothing, and oneTBB complains about them on stderr.
+  const int processors = tbb::info::default_concurrency();
+  tbb::task_arena arena(threads == 0 ? processors : std::min(threads, processors));
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, body); });
 }
 

@@ -29,11 +29,11 @@ Image load_image(const std::filesystem::path& path, const LoadImageParams& param
 Image8 load_image8(const std::filesystem::path& path, const LoadImageParams& params = {});
 Image8 load_image8(std::span<const std::byte> bytes, const std::string& name, const LoadImageParams& params = {});
 
-// Writes linear values: .exr in 16-bit float (half) by default, also .hdr and .tif as OpenImageIO can. Whole or not at
-// all; throws Error.
+// Writes linear values as .exr, in 16-bit floats unless a value is too large for them. Whole or not at all; throws
+// Error.
 void save_image(const std::filesystem::path& path, const Image& image);
 
-// Writes an sRGB picture without alpha as .png. Whole or not at all; throws Error.
+// Writes an sRGB picture as .png. Whole or not at all; throws Error.
 void save_image8(const std::filesystem::path& path, const Image8& image);
 
 }  // namespace shlight

@@ -1,0 +1,213 @@
+#include "shlight/image/image_io.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+#include "shlight/core/error.h"
+#include "shlight/core/file.h"
+
+namespace shlight {
+namespace {
+
+constexpr const char* kAcceptedPictures = "a picture such as .hdr, .exr, .png, .jpg or .tif";
+constexpr float kLargestHalf = 65504;
+
+// OpenImageIO's and OpenEXR's own threads would not survive a fork, on either side of the fence.
+void without_threads() {
+  OIIO::attribute("threads", 1);
+  OIIO::attribute("exr_threads", -1);
+}
+
+// The name of a file, or its bytes and what to call them.
+struct Source {
+  std::string name;
+  std::span<const std::byte> bytes;  // empty: read the file of that name
+};
+
+Error malformed(const Source& source, std::string why) {
+  // OpenImageIO's messages can repeat the name and have several lines.
+  std::replace(why.begin(), why.end(), '\n', ' ');
+  if (why.size() > 200) why.resize(200);
+  return Error(source.name, why.empty() ? "is not a picture" : "is not a readable picture (" + why + ")",
+               kAcceptedPictures);
+}
+
+// An open picture whose header has been checked.
+struct OpenPicture {
+  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
+  std::unique_ptr<OIIO::ImageInput> input;
+  OIIO::ImageSpec spec;
+};
+
+OpenPicture open_picture(const Source& source, const LoadImageParams& params) {
+  OpenPicture picture;
+  OIIO::ImageSpec wish;
+  wish.attribute("oiio:UnassociatedAlpha", 1);  // colours as the file has them
+  if (!source.bytes.empty()) {
+    picture.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::byte*>(source.bytes.data()),
+                                                                     source.bytes.size());
+    OIIO::Filesystem::IOProxy* proxy = picture.memory.get();
+    wish.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  }
+  picture.input = OIIO::ImageInput::open(source.name, &wish, picture.memory.get());
+  if (!picture.input) throw malformed(source, OIIO::geterror());
+  picture.spec = picture.input->spec();
+
+  const OIIO::ImageSpec& spec = picture.spec;
+  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0)
+    throw Error(source.name, fmt::format("has {} x {} pixels of {} channels", spec.width, spec.height, spec.nchannels),
+                "a picture with at least one pixel");
+  if (spec.image_pixels() > params.max_pixels)
+    throw Error(source.name, fmt::format("has {} x {} pixels", spec.width, spec.height),
+                fmt::format("at most {} pixels", params.max_pixels));
+  if (spec.deep) throw Error(source.name, "is a deep picture", "one sample a pixel");
+  if (spec.depth > 1) throw Error(source.name, "is a volume", "a picture of one slice");
+  return picture;
+}
+
+// The channels to take for red, green and blue: those of these names, else the first three, else the first for all.
+std::array<int, 3> colour_channels(const OIIO::ImageSpec& spec) {
+  const auto find = [&](const char* name) {
+    const auto at = std::find(spec.channelnames.begin(), spec.channelnames.end(), name);
+    return at == spec.channelnames.end() ? -1 : static_cast<int>(at - spec.channelnames.begin());
+  };
+  const std::array<int, 3> named = {find("R"), find("G"), find("B")};
+  if (named[0] >= 0 && named[1] >= 0 && named[2] >= 0) return named;
+  if (spec.nchannels >= 3) return {0, 1, 2};
+  return {0, 0, 0};
+}
+
+// The same conversion as IEC 61966-2-1 has it.
+float linear_from_srgb(float value) {
+  return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+}
+
+template <class T>
+void read_pixels(const Source& source, OpenPicture& picture, int first_channel, int end_channel, OIIO::TypeDesc type,
+                 std::span<T> values) {
+  if (!picture.input->read_image(0, 0, first_channel, end_channel, type, values.data()))
+    throw malformed(source, picture.input->geterror());
+}
+
+void decode_float(const Source& source, const LoadImageParams& params, FencedBytes& out) {
+  without_threads();
+  OpenPicture picture = open_picture(source, params);
+  const OIIO::ImageSpec& spec = picture.spec;
+  const std::size_t pixels = spec.image_pixels();
+  const int size[2] = {spec.width, spec.height};
+  const auto bytes = out.resize(sizeof size + 3 * pixels * sizeof(float));
+  std::memcpy(bytes.data(), size, sizeof size);
+  const std::span<float> rgb(reinterpret_cast<float*>(bytes.data() + sizeof size), 3 * pixels);
+
+  const auto [r, g, b] = colour_channels(spec);
+  if (g == r + 1 && b == r + 2) {
+    read_pixels(source, picture, r, r + 3, OIIO::TypeFloat, rgb);
+  } else {
+    const std::size_t channels = static_cast<std::size_t>(spec.nchannels);
+    std::vector<float> all(channels * pixels);
+    read_pixels(source, picture, 0, spec.nchannels, OIIO::TypeFloat, std::span(all));
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const float* pixel = all.data() + i * channels;
+      rgb[3 * i] = pixel[r], rgb[3 * i + 1] = pixel[g], rgb[3 * i + 2] = pixel[b];
+    }
+  }
+  if (!spec.format.is_floating_point())
+    for (float& value : rgb) value = linear_from_srgb(value);
+}
+
+void decode_bytes(const Source& source, const LoadImageParams& params, FencedBytes& out) {
+  without_threads();
+  OpenPicture picture = open_picture(source, params);
+  const OIIO::ImageSpec& spec = picture.spec;
+  const std::size_t pixels = spec.image_pixels(), channels = static_cast<std::size_t>(spec.nchannels);
+  std::vector<unsigned char> all(channels * pixels);
+  read_pixels(source, picture, 0, spec.nchannels, OIIO::TypeUInt8, std::span(all));
+
+  const int size[2] = {spec.width, spec.height};
+  const auto bytes = out.resize(sizeof size + 4 * pixels);
+  std::memcpy(bytes.data(), size, sizeof size);
+  auto* rgba = reinterpret_cast<unsigned char*>(bytes.data() + sizeof size);
+  const auto [r, g, b] = colour_channels(spec);
+  const int alpha = spec.alpha_channel;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const unsigned char* pixel = all.data() + i * channels;
+    rgba[4 * i] = pixel[r], rgba[4 * i + 1] = pixel[g], rgba[4 * i + 2] = pixel[b];
+    rgba[4 * i + 3] = alpha >= 0 ? pixel[alpha] : 255;
+  }
+}
+
+// Runs a decoder behind the fence and gives back the size and the values it wrote.
+template <class Result, class Decode>
+Result load_fenced(const Source& source, const LoadImageParams& params, Decode decode) {
+  if (source.bytes.empty() && !std::filesystem::is_regular_file(source.name)) {
+    const bool exists = std::filesystem::exists(source.name);
+    throw Error(source.name, exists ? "is not a regular file" : "no such file", kAcceptedPictures);
+  }
+  const FencedBytes fenced =
+      run_fenced(source.name, kAcceptedPictures, params.fence, [&](FencedBytes& out) { decode(source, params, out); });
+  Result result;
+  const auto bytes = fenced.bytes();
+  int size[2];
+  std::memcpy(size, bytes.data(), sizeof size);
+  result.width = size[0], result.height = size[1];
+  const auto* values =
+      reinterpret_cast<const typename decltype(result.values)::value_type*>(bytes.data() + sizeof size);
+  result.values.assign(values, values + (bytes.size() - sizeof size) / sizeof *values);
+  return result;
+}
+
+void encode(const std::filesystem::path& path, OIIO::ImageSpec spec, OIIO::TypeDesc type, const void* values,
+            const char* accepted) {
+  without_threads();
+  const std::string name = path.string();
+  auto output = OIIO::ImageOutput::create(name);
+  if (!output || !output->supports("ioproxy"))
+    throw Error(name, fmt::format("cannot write '{}' pictures", path.extension().string()), accepted);
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  output->set_ioproxy(&memory);
+  if (!output->open(name, spec) || !output->write_image(type, values) || !output->close())
+    throw Error(name, "cannot be encoded (" + output->geterror() + ")", accepted);
+  write_file(path, std::as_bytes(std::span(bytes)));
+}
+
+}  // namespace
+
+Image load_image(const std::filesystem::path& path, const LoadImageParams& params) {
+  return load_fenced<Image>({path.string(), {}}, params, decode_float);
+}
+
+Image8 load_image8(const std::filesystem::path& path, const LoadImageParams& params) {
+  return load_fenced<Image8>({path.string(), {}}, params, decode_bytes);
+}
+
+Image8 load_image8(std::span<const std::byte> bytes, const std::string& name, const LoadImageParams& params) {
+  if (bytes.empty()) throw Error(name, "is empty", kAcceptedPictures);
+  return load_fenced<Image8>({name, bytes}, params, decode_bytes);
+}
+
+void save_image(const std::filesystem::path& path, const Image& image) {
+  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::HALF);
+  // Half floats are what everybody reads, but a sun does not fit into them.
+  for (const float value : image.values)
+    if (std::abs(value) > kLargestHalf) spec.set_format(OIIO::TypeDesc::FLOAT);
+  spec.attribute("compression", "zip");
+  spec.attribute("oiio:ColorSpace", "Linear");
+  encode(path, spec, OIIO::TypeFloat, image.values.data(), "a file name that ends in .exr");
+}
+
+void save_image8(const std::filesystem::path& path, const Image8& image) {
+  OIIO::ImageSpec spec(image.width, image.height, 4, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  encode(path, spec, OIIO::TypeDesc::UINT8, image.values.data(), "a file name that ends in .png");
+}
+
+}  // namespace shlight
