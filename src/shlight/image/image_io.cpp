@@ -150,8 +150,10 @@ Result load_fenced(const Source& source, const LoadImageParams& params, Decode d
     const bool exists = std::filesystem::exists(source.name);
     throw Error(source.name, exists ? "is not a regular file" : "no such file", kAcceptedPictures);
   }
-  const FencedBytes fenced =
-      run_fenced(source.name, kAcceptedPictures, params.fence, [&](FencedBytes& out) { decode(source, params, out); });
+  const std::uintmax_t file_bytes =
+      source.bytes.empty() ? std::filesystem::file_size(source.name) : source.bytes.size();
+  const FencedBytes fenced = run_fenced(source.name, kAcceptedPictures, limits_for_file(params.fence, file_bytes),
+                                        [&](FencedBytes& out) { decode(source, params, out); });
   Result result;
   const auto bytes = fenced.bytes();
   int size[2];
