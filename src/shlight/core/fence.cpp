@@ -30,6 +30,7 @@ constexpr std::size_t kFirstCapacity = 1 << 16;
 // How the child says what became of its work; anything else it may exit with is a crash.
 enum ExitCode { kDone = 0, kThrewError = 61, kOutOfMemory = 62, kThrewOther = 63 };
 
+#ifndef SHLIGHT_SANITIZED
 // What the kernel counts as this process's address space, in bytes.
 std::uint64_t address_space_bytes() {
   std::uint64_t pages = 0;
@@ -40,6 +41,7 @@ std::uint64_t address_space_bytes() {
   }
   return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
+#endif
 
 void enter_fence(const FenceLimits& limits) {
   // The child dies with its parent, dumps no core and, where it crashes, writes no trace of the parser's.

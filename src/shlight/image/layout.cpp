@@ -27,30 +27,31 @@ double angular_map_density(double x, double y) {
   return r < 1e-8 ? pi * pi : pi * std::sin(pi * r) / r;
 }
 
-// ∫ of the density over [y0, y1] × [x0, x1], cut off at the circle. Rows of Gauss nodes, each over the part of the row
-// inside; a pixel that the circle enters or leaves through its top or bottom is cut there first, so that every piece
-// is smooth up to the square root at the circle's own top and bottom, where the density is zero.
-double angular_map_solid_angle(double x0, double x1, double y0, double y1) {
-  const double low = std::min(std::abs(x0), std::abs(x1)), high = std::max(std::abs(x0), std::abs(x1));
-  const double near = y0 * y1 < 0 ? 0 : std::min(std::abs(y0), std::abs(y1));
-  if (std::hypot(x0 * x1 < 0 ? 0 : low, near) >= 1) return 0;
-  const bool inside = std::hypot(high, std::max(std::abs(y0), std::abs(y1))) <= 1;
-  static const GaussLegendre kRule = make_gauss_legendre(6);
+// Nodes over [y0, y1] x [x0, x1] of the square [−1, 1]², cut off at the circle. Rows of Gauss nodes, each over the part
+// of the row inside; a pixel that the circle enters or leaves through its top or bottom is cut there first, so that
+// every piece is smooth up to the square root at the circle's own top and bottom, where the density is zero.
+void angular_map_nodes(double x0, double x1, double y0, double y1, std::vector<WeightedDirection>& nodes) {
+  const double near_x = x0 * x1 < 0 ? 0 : std::min(std::abs(x0), std::abs(x1));
+  const double near_y = y0 * y1 < 0 ? 0 : std::min(std::abs(y0), std::abs(y1));
+  if (std::hypot(near_x, near_y) >= 1) return;
 
-  const auto rectangle_rows = [&](double a, double b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < kRule.nodes.size(); ++i) {
-      const double y = a + (b - a) * 0.5 * (1 + kRule.nodes[i]);
+  static const GaussLegendre kFine = make_gauss_legendre(6), kCoarse = make_gauss_legendre(3);
+  const GaussLegendre& rule = x1 - x0 > 1.0 / 16 ? kFine : kCoarse;
+  const auto add_rows = [&](double a, double b) {
+    for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+      const double y = a + (b - a) * 0.5 * (1 + rule.nodes[i]);
       const double reach = std::sqrt(std::max(0.0, 1 - y * y));
       const double left = std::clamp(x0, -reach, reach), right = std::clamp(x1, -reach, reach);
-      for (std::size_t j = 0; j < kRule.nodes.size(); ++j) {
-        const double x = left + (right - left) * 0.5 * (1 + kRule.nodes[j]);
-        sum += kRule.weights[i] * kRule.weights[j] * 0.25 * (b - a) * (right - left) * angular_map_density(x, y);
+      for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
+        const double x = left + (right - left) * 0.5 * (1 + rule.nodes[j]);
+        const double weight = rule.weights[i] * rule.weights[j] * 0.25 * (b - a) * (right - left);
+        if (const auto direction = direction_at(Layout::kAngularMap, {0.5 + 0.5 * x, 0.5 - 0.5 * y}))
+          nodes.push_back({*direction, weight * angular_map_density(x, y)});
       }
     }
-    return sum;
   };
-  if (inside) return rectangle_rows(y0, y1);
+  const double far = std::hypot(std::max(std::abs(x0), std::abs(x1)), std::max(std::abs(y0), std::abs(y1)));
+  if (far <= 1) return add_rows(y0, y1);
 
   // Heights at which the circle crosses the pixel's left and right side, and where it ends.
   std::vector<double> cuts = {y0, y1};
@@ -61,9 +62,20 @@ double angular_map_solid_angle(double x0, double x1, double y0, double y1) {
   for (const double y : {-1.0, 1.0})
     if (y > y0 && y < y1) cuts.push_back(y);
   std::sort(cuts.begin(), cuts.end());
-  double sum = 0;
-  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) sum += rectangle_rows(cuts[i], cuts[i + 1]);
-  return sum;
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) add_rows(cuts[i], cuts[i + 1]);
+}
+
+// Gauss nodes in both angles, over which a lat-long pixel is a rectangle with the density sin θ.
+void lat_long_nodes(int width, int height, int x, int y, std::vector<WeightedDirection>& nodes) {
+  static const GaussLegendre kFine = make_gauss_legendre(6), kCoarse = make_gauss_legendre(3);
+  const GaussLegendre& rule = height < 64 ? kFine : kCoarse;
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i)
+    for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
+      const double v = (y + 0.5 * (1 + rule.nodes[i])) / height, u = (x + 0.5 * (1 + rule.nodes[j])) / width;
+      const double area = 2 * pi / width * pi / height;
+      nodes.push_back({*direction_at(Layout::kLatLong, {u, v}),
+                       0.25 * rule.weights[i] * rule.weights[j] * area * std::sin(pi * v)});
+    }
 }
 
 // The pixel index of a coordinate in [0, 1]; 1 itself belongs to the last pixel.
@@ -126,6 +138,14 @@ ImagePoint point_of(Layout layout, Vec3d d) {
   return {0.5 + 0.5 * r * d.x / s, 0.5 - 0.5 * r * d.y / s};
 }
 
+void pixel_nodes(Layout layout, int width, int height, int x, int y, std::vector<WeightedDirection>& nodes) {
+  assert(x >= 0 && x < width && y >= 0 && y < height);
+  nodes.clear();
+  if (layout == Layout::kLatLong) return lat_long_nodes(width, height, x, y, nodes);
+  angular_map_nodes(2.0 * x / width - 1, 2.0 * (x + 1) / width - 1, 1 - 2.0 * (y + 1) / height, 1 - 2.0 * y / height,
+                    nodes);
+}
+
 double pixel_solid_angle(Layout layout, int width, int height, int x, int y) {
   assert(x >= 0 && x < width && y >= 0 && y < height);
   if (layout == Layout::kLatLong) {
@@ -133,8 +153,11 @@ double pixel_solid_angle(Layout layout, int width, int height, int x, int y) {
     const double middle = pi * (y + 0.5) / height, half = pi / (2.0 * height);
     return 2 * pi / width * 2 * std::sin(middle) * std::sin(half);
   }
-  return angular_map_solid_angle(2.0 * x / width - 1, 2.0 * (x + 1) / width - 1, 1 - 2.0 * (y + 1) / height,
-                                 1 - 2.0 * y / height);
+  std::vector<WeightedDirection> nodes;
+  pixel_nodes(layout, width, height, x, y, nodes);
+  double sum = 0;
+  for (const WeightedDirection& node : nodes) sum += node.solid_angle;
+  return sum;
 }
 
 Rgb eval_nearest(const Environment& environment, Vec3d direction) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "shlight/image/image.h"
 #include "shlight/sh/vec.h"
@@ -50,9 +51,19 @@ std::optional<Vec3d> direction_at(Layout layout, ImagePoint point);
 // The image point of a unit direction, in [0, 1]².
 ImagePoint point_of(Layout layout, Vec3d direction);
 
-// The solid angle of pixel (x, y) in steradians, exact: in closed form for lat-long, for the angular map by quadrature
-// to 1e-9 of the pixel's own. Zero outside of the angular map's circle, the part inside for pixels on it. All pixels
-// together have 4π.
+// A direction and the solid angle, in steradians, that it stands for.
+struct WeightedDirection {
+  Vec3d direction;
+  double solid_angle = 0;
+};
+
+// Quadrature nodes of pixel (x, y): the integral over the pixel of a smooth function of the direction is the sum over
+// the nodes. None for pixels outside of an angular map's circle; for those on it, nodes of the part inside. For
+// functions of 10 bands, maps of 64 pixels and more are right to 1e-10. `nodes` is overwritten.
+void pixel_nodes(Layout layout, int width, int height, int x, int y, std::vector<WeightedDirection>& nodes);
+
+// The solid angle of pixel (x, y) in steradians, exact: in closed form for lat-long, by its nodes for the angular map
+// (to 1e-7 for maps of 7 pixels and more). All pixels together have 4π.
 double pixel_solid_angle(Layout layout, int width, int height, int x, int y);
 
 // A picture that covers all directions.

@@ -67,6 +67,21 @@ TEST(Layout, SolidAnglesAreWholeSpheres) {
     }
 }
 
+TEST(Layout, NodesOfAPixelHaveItsSolidAngle) {
+  std::vector<WeightedDirection> nodes;
+  for (const int height : {8, 64})
+    for (const int y : {0, 1, height / 2, height - 1}) {
+      pixel_nodes(Layout::kLatLong, 2 * height, height, 3, y, nodes);
+      double sum = 0;
+      for (const WeightedDirection& node : nodes) {
+        EXPECT_EQ(static_cast<int>(point_of(Layout::kLatLong, node.direction).u * 2 * height), 3);
+        sum += node.solid_angle;
+      }
+      const double closed_form = pixel_solid_angle(Layout::kLatLong, 2 * height, height, 3, y);
+      EXPECT_NEAR(sum, closed_form, 1e-11 * closed_form);
+    }
+}
+
 // Against brute force: the share of uniform directions that falls into a pixel.
 TEST(Layout, SolidAngleOfAPixelOnTheCircle) {
   constexpr int kSize = 8;

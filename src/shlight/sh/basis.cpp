@@ -262,17 +262,25 @@ void eval_basis(int bands, std::span<const float> x, std::span<const float> y, s
     eval_block_recursive(bands, std::min(kBlock, count - j), &x[j], &y[j], &z[j], &values[j], count);
 }
 
-void eval_normalized_legendre(int bands, double z, double s, std::span<double> p) {
-  assert(static_cast<int>(p.size()) == bands * (bands + 1) / 2);
-  const auto at = [&](int l, int m) -> double& { return p[static_cast<std::size_t>(l * (l + 1) / 2 + m)]; };
-  double start = kY00;
-  for (int m = 0; m < bands; ++m) {
-    if (m > 0) start *= s * start_ratio(m);
-    at(m, m) = start;
-    for (int l = m + 1; l < bands; ++l) {
-      const auto [a, b] = factors(l, m);
-      at(l, m) = a * z * at(l - 1, m) - (l > m + 1 ? b * at(l - 2, m) : 0);
-    }
+NormalizedLegendre::NormalizedLegendre(int bands) : bands_(bands) {
+  factors_.reserve(static_cast<std::size_t>(bands * (bands + 1) / 2));
+  for (int l = 0; l < bands; ++l) {
+    for (int m = 0; m < l; ++m) factors_.push_back({factor_a(l, m), factor_b(l, m)});
+    factors_.push_back({l == 0 ? kY00 : start_ratio(l), 0});
+  }
+}
+
+void NormalizedLegendre::eval(double z, double s, std::span<double> p) const {
+  assert(p.size() == size());
+  if (p.empty()) return;
+  p[0] = kY00;
+  // Rows l−2, l−1 and l of the triangle; the last two of a row have no p_{l−2} and no p_{l−1} above them.
+  for (std::size_t l = 1; l < static_cast<std::size_t>(bands_); ++l) {
+    const std::size_t row = l * (l + 1) / 2, above = row - l, above2 = above - (l - 1);
+    for (std::size_t m = 0; m + 1 < l; ++m)
+      p[row + m] = factors_[row + m].a * z * p[above + m] - factors_[row + m].b * p[above2 + m];
+    p[row + l - 1] = factors_[row + l - 1].a * z * p[above + l - 1];
+    p[row + l] = factors_[row + l].a * s * p[above + l - 1];
   }
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "shlight/sh/coefficients.h"
 #include "shlight/sh/vec.h"
@@ -44,9 +46,22 @@ void eval_basis(int bands, std::span<const float> x, std::span<const float> y, s
 template <class T>
 void eval_basis_recursive(int bands, Vec3<T> direction, std::span<T> values);
 
-// The normalised associated Legendre functions without phase, of z = cos θ and s = sin θ >= 0:
+// The normalised associated Legendre functions without phase, of z = cos θ and s = sin θ >= 0, in the sequence
 // p[l(l+1)/2 + m] = K_l^m P_l^m(z) √(2 if m > 0), so that Y_lm = p cos(mφ). bands(bands+1)/2 values.
-void eval_normalized_legendre(int bands, double z, double s, std::span<double> p);
+class NormalizedLegendre {
+ public:
+  explicit NormalizedLegendre(int bands);
+  int bands() const { return bands_; }
+  std::size_t size() const { return factors_.size(); }
+  void eval(double z, double s, std::span<double> p) const;
+
+ private:
+  struct Factors {
+    double a, b;
+  };
+  int bands_;
+  std::vector<Factors> factors_;  // in the sequence of p; on the diagonal, a is p_m^m / p_{m-1}^{m-1}
+};
 
 // Σ c_i Y_i(direction).
 double reconstruct(const Coefficients<double>& coefficients, Vec3d direction);

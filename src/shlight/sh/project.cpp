@@ -87,7 +87,8 @@ RgbCoefficients quadrature_once(const SphereFunction& f, int bands, int rows) {
     const double phi = 2 * pi * (x + 0.5) / columns - pi;
     cosines[static_cast<std::size_t>(x)] = std::cos(phi), sines[static_cast<std::size_t>(x)] = std::sin(phi);
   }
-  std::vector<double> legendre(static_cast<std::size_t>(bands * (bands + 1) / 2));
+  const NormalizedLegendre normalized_legendre(bands);
+  std::vector<double> legendre(normalized_legendre.size());
   for (const double hemisphere : {1.0, -1.0})
     for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
       const double up = hemisphere * 0.5 * (1 + rule.nodes[k]);
@@ -104,7 +105,7 @@ RgbCoefficients quadrature_once(const SphereFunction& f, int bands, int rows) {
           c = next;
         }
       }
-      eval_normalized_legendre(bands, up, s, legendre);
+      normalized_legendre.eval(up, s, legendre);
       for (double& p : legendre) p *= 0.5 * rule.weights[k] * 2 * pi / columns;
       sum.add_row(legendre, moments);
     }

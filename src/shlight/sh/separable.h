@@ -17,7 +17,7 @@ class SeparableSum {
  public:
   explicit SeparableSum(int bands) : local_(bands) {}
 
-  // Adds one row: `legendre` in the sequence of eval_normalized_legendre(up, s), with the row's weight folded in, and
+  // Adds one row: `legendre` as NormalizedLegendre evaluates it at (up, s), with the row's weight folded in, and
   // the row's moments Σ L cos(mφ), Σ L sin(mφ) at 2m and 2m + 1.
   void add_row(std::span<const double> legendre, std::span<const Rgb> moments);
   void add(const SeparableSum& other) { local_ += other.local_; }

@@ -1,0 +1,99 @@
+#include "shlight/light/coefficient_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "shlight/core/error.h"
+#include "shlight/core/file.h"
+
+namespace shlight {
+namespace {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+
+constexpr int kMaxBands = 256;
+constexpr std::uint64_t kMaxBytes = 64 << 20;
+
+ordered_json convention() {
+  return {{"basis", "real, orthonormal"},
+          {"condon_shortley_phase", false},
+          {"index", "l(l+1)+m"},
+          {"polynomials",
+           ".282095, .488603 y, .488603 z, .488603 x, 1.092548 xy, 1.092548 yz, .315392(3z^2-1), "
+           "1.092548 xz, .546274(x^2-y^2), ..."},
+          {"frame", "right-handed, +Y up, -Z forward, directions toward the light"},
+          {"quantity", "radiance, nothing folded in"},
+          {"color", "linear Rec. 709"}};
+}
+
+RgbCoefficients parse(const std::string& name, const json& root) {
+  const auto fail = [&](const std::string& wrong, const std::string& accepted) { throw Error(name, wrong, accepted); };
+  if (!root.is_object() || !root.contains("shlight"))
+    fail("is no coefficient file (\"shlight\" is missing)",
+         "{\"shlight\": 1, \"bands\": …, \"convention\": …, \"coefficients\": …}");
+  if (root["shlight"] != 1) fail("is of version " + root["shlight"].dump(), "version 1");
+  for (const char* key : {"bands", "convention", "coefficients"})
+    if (!root.contains(key)) fail(fmt::format("\"{}\" is missing", key), "a coefficient file as shlight writes it");
+
+  const ordered_json expected = convention();
+  if (!root["convention"].is_object()) fail("\"convention\" is no object", expected.dump());
+  for (const auto& [key, value] : expected.items())
+    if (!root["convention"].contains(key) || root["convention"][key] != json(value))
+      fail(fmt::format("\"convention\" has {} {}", key,
+                       root["convention"].contains(key) ? root["convention"][key].dump() : "missing"),
+           fmt::format("\"{}\": {}", key, value.dump()));
+
+  const json& bands = root["bands"];
+  if (!bands.is_number_integer() || bands < 1 || bands > kMaxBands)
+    fail("\"bands\" is " + bands.dump(), fmt::format("a whole number from 1 to {}", kMaxBands));
+  RgbCoefficients coefficients(bands.get<int>());
+  const json& entries = root["coefficients"];
+  if (!entries.is_array() || entries.size() != coefficients.size())
+    fail(fmt::format("\"coefficients\" has {} entries", entries.is_array() ? entries.size() : 0),
+         fmt::format("{} entries for {} bands", coefficients.size(), coefficients.bands()));
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const json& entry = entries[i];
+    bool good = entry.is_array() && entry.size() == 3;
+    for (std::size_t c = 0; good && c < 3; ++c) good = entry[c].is_number() && std::isfinite(entry[c].get<double>());
+    if (!good)
+      fail(fmt::format("coefficient {} is {}", i, entry.dump().substr(0, 80)), "three finite numbers, [r, g, b]");
+    coefficients[i] = {entry[0].get<double>(), entry[1].get<double>(), entry[2].get<double>()};
+  }
+  return coefficients;
+}
+
+}  // namespace
+
+std::string format_coefficients(const RgbCoefficients& coefficients) {
+  ordered_json root = {{"shlight", 1}, {"bands", coefficients.bands()}, {"convention", convention()}};
+  // One coefficient a line, which neither of the library's two layouts gives.
+  std::string text = root.dump(2);
+  text.resize(text.size() - 2);
+  text += ",\n  \"coefficients\": [";
+  for (std::size_t i = 0; i < coefficients.size(); ++i) {
+    const Rgb c = coefficients[i];
+    text += (i ? ",\n    " : "\n    ") + json({c.r, c.g, c.b}).dump();
+  }
+  return text + "\n  ]\n}\n";
+}
+
+void save_coefficients(const std::filesystem::path& path, const RgbCoefficients& coefficients) {
+  write_file(path, format_coefficients(coefficients));
+}
+
+RgbCoefficients load_coefficients(const std::filesystem::path& path) {
+  const auto bytes = read_file(path, kMaxBytes);
+  const auto* text = reinterpret_cast<const char*>(bytes.data());
+  json root;
+  try {
+    root = json::parse(text, text + bytes.size());
+  } catch (const json::exception& error) {
+    throw Error(path.string(), fmt::format("is no JSON ({})", error.what()), "a coefficient file as shlight writes it");
+  }
+  return parse(path.string(), root);
+}
+
+}  // namespace shlight

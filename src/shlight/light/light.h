@@ -1,0 +1,102 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shlight/image/image_io.h"
+#include "shlight/image/layout.h"
+#include "shlight/image/pixel_report.h"
+#include "shlight/sh/coefficients.h"
+#include "shlight/sh/project.h"
+
+namespace shlight {
+
+// Light from infinitely far away: radiance as a function of the direction it comes from.
+class Light {
+ public:
+  virtual ~Light() = default;
+
+  // Linear Rec. 709 radiance from a unit direction. Safe to call from several threads.
+  virtual Rgb radiance(Vec3d direction) const = 0;
+
+  // The coefficients of the radiance, by the most exact method that this kind of light has.
+  // `threads`: 0 for all there are.
+  virtual RgbCoefficients project(int bands, int threads = 0) const = 0;
+
+  // The light as a lat-long picture: its own where it is one, else of `width` x `width`/2 pixels.
+  virtual Image lat_long(int width, int threads = 0) const;
+};
+
+struct LoadLightParams {
+  std::optional<Layout> layout;  // of pictures; nothing: told from the picture's shape
+  LoadImageParams image;
+};
+
+// What a light was made from.
+struct LightInfo {
+  enum class Kind { kImage, kCoefficients, kFormula, kBuiltin };
+  Kind kind = Kind::kBuiltin;
+  std::string name;
+  std::optional<Layout> layout;  // of an image, as are these
+  int width = 0, height = 0;
+  PixelReport pixels;
+  int bands = 0;  // of coefficients
+};
+
+struct LoadedLight {
+  std::unique_ptr<Light> light;
+  LightInfo info;
+};
+
+// Makes a light from what a user writes: the path of a picture or of a coefficient file (.json), "builtin:NAME" with
+// optional parameters ("builtin:sky:elevation=20,turbidity=4"), or a formula "fn:…" (formula_light.h). Pixels that are
+// not finite are taken as 0, which info.pixels reports. Throws Error.
+LoadedLight load_light(const std::string& light, const LoadLightParams& params = {});
+
+// Pixels of constant radiance.
+class ImageLight : public Light {
+ public:
+  explicit ImageLight(Environment environment) : environment_(std::move(environment)) {}
+  Rgb radiance(Vec3d direction) const override { return eval_nearest(environment_, direction); }
+  RgbCoefficients project(int bands, int threads) const override;
+  Image lat_long(int width, int threads) const override;
+  const Environment& environment() const { return environment_; }
+
+ private:
+  Environment environment_;
+};
+
+// The function that coefficients stand for, negative radiance and all.
+class CoefficientLight : public Light {
+ public:
+  explicit CoefficientLight(RgbCoefficients coefficients) : coefficients_(std::move(coefficients)) {}
+  Rgb radiance(Vec3d direction) const override;
+  RgbCoefficients project(int bands, int threads) const override;
+
+ private:
+  RgbCoefficients coefficients_;
+};
+
+// A function and, on top of it, discs of uniform radiance, which are projected in closed form however small they are.
+class FunctionLight : public Light {
+ public:
+  struct Disc {
+    Vec3d axis;             // unit
+    double half_angle = 0;  // radians
+    Rgb radiance;
+  };
+  explicit FunctionLight(SphereFunction function, std::vector<Disc> discs = {})
+      : function_(std::move(function)), discs_(std::move(discs)) {}
+  Rgb radiance(Vec3d direction) const override;
+  RgbCoefficients project(int bands, int threads) const override;
+  Image lat_long(int width, int threads) const override;
+
+ private:
+  SphereFunction function_;
+  std::vector<Disc> discs_;
+};
+
+}  // namespace shlight

@@ -1,0 +1,119 @@
+#include "shlight/light/light.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "shlight/core/error.h"
+#include "shlight/core/temporary_folder.h"
+#include "shlight/light/builtin_light.h"
+#include "shlight/light/coefficient_file.h"
+#include "shlight/sh/basis.h"
+#include "shlight/sh/zonal.h"
+
+namespace shlight {
+namespace {
+
+// The axes light as an angular map.
+Image angular_map_of(const Light& light, int size) {
+  Image image(size, size);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      // The circle's pixels whose centre lies outside of it show what is at its edge; the corners must not count.
+      const auto d = direction_at(Layout::kAngularMap, {(x + 0.5) / size, (y + 0.5) / size});
+      const bool corner = pixel_solid_angle(Layout::kAngularMap, size, size, x, y) == 0;
+      image.set_rgb(x, y, corner ? Rgb{1000, 1000, 1000} : light.radiance(d.value_or(Vec3d{0, 0, 1})));
+    }
+  return image;
+}
+
+TEST(LoadLight, TheSameLightFromEveryLayout) {
+  const TemporaryFolder folder;
+  const auto axes = make_axes_light();
+  const RgbCoefficients exact = axes->project(5);
+  save_image(folder / "lat-long.exr", axes->lat_long(1024));
+  save_image(folder / "angular-map.exr", angular_map_of(*axes, 1024));
+  for (const char* name : {"lat-long", "angular-map"}) {
+    const auto [light, info] = load_light((folder / (std::string(name) + ".exr")).string());
+    EXPECT_EQ(info.layout, layout_from_name(name));
+    EXPECT_NEAR(info.pixels.max, 6.04, 0.01);
+    const RgbCoefficients c = light->project(5);
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      EXPECT_NEAR(c[i].r, exact[i].r, 2e-3 * exact[0].r) << name << " " << i;
+      EXPECT_NEAR(c[i].g, exact[i].g, 2e-3 * exact[0].g) << name << " " << i;
+      EXPECT_NEAR(c[i].b, exact[i].b, 2e-3 * exact[0].b) << name << " " << i;
+    }
+    EXPECT_NEAR(light->radiance({1, 0, 0}).r, 6.04, 1e-2);
+    const Image picture = light->lat_long(1024);
+    EXPECT_NEAR(picture.rgb(768, 256).r, 6.04, 1e-2);  // +X is three quarters to the right
+  }
+}
+
+TEST(LoadLight, CoefficientFilesAreLights) {
+  const TemporaryFolder folder;
+  RgbCoefficients c(3);
+  add_delta({0, 1, 0}, {1, 2, 3}, c);
+  save_coefficients(folder / "a.json", c);
+  const auto [light, info] = load_light((folder / "a.json").string());
+  EXPECT_EQ(info.kind, LightInfo::Kind::kCoefficients);
+  EXPECT_EQ(info.bands, 3);
+  EXPECT_EQ(light->project(3), c);
+  EXPECT_EQ(light->project(5), resize_bands(c, 5));
+  EXPECT_NEAR(light->radiance({0, 1, 0}).g, 2 * 9 / (4 * 3.141592653589793), 1e-12);
+}
+
+TEST(LoadLight, PixelsThatAreNotFiniteAreReportedAndTakenAsZero) {
+  const TemporaryFolder folder;
+  Image image(64, 32);
+  for (float& value : image.values) value = 1;
+  Image repaired = image;
+  image.set_rgb(5, 6, {NAN, 1, 1});
+  repaired.set_rgb(5, 6, {0, 1, 1});
+  save_image(folder / "a.exr", image);
+  save_image(folder / "b.exr", repaired);
+  const auto a = load_light((folder / "a.exr").string()), b = load_light((folder / "b.exr").string());
+  EXPECT_EQ(a.info.pixels.nan, 1u);
+  EXPECT_EQ(a.info.pixels.first_nan->x, 5);
+  EXPECT_EQ(a.light->project(3), b.light->project(3));
+}
+
+TEST(LoadLight, AShapeThatTellsNothingNeedsALayout) {
+  const TemporaryFolder folder;
+  save_image(folder / "a.exr", Image(100, 40));
+  EXPECT_THROW(load_light((folder / "a.exr").string()), Error);
+  LoadLightParams params;
+  params.layout = Layout::kLatLong;
+  EXPECT_EQ(load_light((folder / "a.exr").string(), params).info.layout, Layout::kLatLong);
+}
+
+// The nine coefficients published for ten classic probes light as their polynomial does.
+TEST(LoadLight, PublishedTables) {
+  const char* data = std::getenv("SHLIGHT_TEST_DATA");
+  if (!data) GTEST_SKIP() << "SHLIGHT_TEST_DATA names no folder";
+  std::ifstream file(std::string(data) + "/references/published_tables.json");
+  const auto root = nlohmann::json::parse(file);
+  const TemporaryFolder folder;
+  int tables = 0;
+  for (const auto& [name, table] : root["tables"].items()) {
+    // Their sequence is L00, L1−1, L10, L11, L2−2 …: ours.
+    ASSERT_EQ(root["order"][8], "L22");
+    RgbCoefficients c(3);
+    for (std::size_t i = 0; i < 9; ++i) c[i] = {table[i][0], table[i][1], table[i][2]};
+    save_coefficients(folder / "probe.json", c);
+    const RgbCoefficients back = load_light((folder / "probe.json").string()).light->project(3);
+    for (const Vec3d n : make_sphere_samples(0, 6, 1).directions) {
+      const Rgb difference = eval_irradiance_polynomial(back, n) - reconstruct(irradiance_from_radiance(c), n);
+      EXPECT_NEAR(difference.g, 0, 1e-12) << name;
+    }
+    // All were taken with the sky up.
+    EXPECT_GT(luminance(eval_irradiance_polynomial(back, {0, 1, 0})), 0) << name;
+    ++tables;
+  }
+  EXPECT_EQ(tables, 10);
+}
+
+}  // namespace
+}  // namespace shlight

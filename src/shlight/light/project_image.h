@@ -1,0 +1,18 @@
+#pragma once
+
+#include "shlight/image/layout.h"
+#include "shlight/sh/coefficients.h"
+
+namespace shlight {
+
+// The coefficients of a picture whose pixels are areas of constant radiance, exact but for rounding: each pixel's
+// integral of the basis, not its value at the centre. Finite pixels only; lat-long maps of at least 1 x 1. The same
+// bits whatever the number of threads (0: all there are).
+//
+// A lat-long map is separable and takes about as long as reading its memory twice; see project_image.cpp.
+RgbCoefficients project_image(const Environment& environment, int bands, int threads = 0);
+
+// The slow reference, and the way of every other layout: pixel by pixel, node by node.
+RgbCoefficients project_image_by_pixels(const Environment& environment, int bands, int threads = 0);
+
+}  // namespace shlight

@@ -1,0 +1,177 @@
+#include "shlight/light/project_image.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <vector>
+
+#include "shlight/light/light.h"
+#include "shlight/sh/basis.h"
+#include "shlight/sh/zonal.h"
+
+namespace shlight {
+namespace {
+
+using std::numbers::pi;
+
+// A picture without any symmetry, with a sun in it.
+Environment some_environment(Layout layout, int width, int height) {
+  Environment environment{Image(width, height), layout};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const double u = (x + 0.5) / width, v = (y + 0.5) / height;
+      environment.image.set_rgb(x, y, {1 + std::sin(7 * u + 3 * v), u * u + v, std::abs(std::cos(9 * v * u)) - 0.2});
+    }
+  environment.image.set_rgb(width / 3, height / 3, {900, 700, 500});
+  return environment;
+}
+
+double largest(Rgb c) {
+  return std::max({std::abs(c.r), std::abs(c.g), std::abs(c.b)});
+}
+
+void expect_near(const RgbCoefficients& a, const RgbCoefficients& b, double tolerance) {
+  ASSERT_EQ(a.bands(), b.bands());
+  for (std::size_t i = 0; i < a.size(); ++i)
+    EXPECT_LE(largest(a[i] - b[i]), tolerance * largest(b[0]))
+        << "coefficient " << i << ": " << a[i].r << " and " << b[i].r;
+}
+
+// Float moments carry 6e-8 a term; what is left of it after a row is far below this, as a share of L00.
+constexpr double kFloatSums = 1e-6;
+
+TEST(ProjectImage, SeparableEqualsPixelByPixel) {
+  // Even and odd, folded and not, wider than a tile of float sums, narrower than a lane.
+  for (const auto& [width, height] : {std::pair{64, 32}, {2, 1}, {1, 1}, {33, 17}, {38, 20}, {5, 40}, {2306, 24}})
+    for (const int bands : {1, 2, 3, 4, 5, 8, 11}) {
+      const Environment environment = some_environment(Layout::kLatLong, width, height);
+      SCOPED_TRACE(testing::Message() << width << " x " << height << ", " << bands << " bands");
+      // Pixels of nearly a hemisphere are too much for the reference's quadrature.
+      const bool coarse = width < 16 || height < 16;
+      if (coarse && bands > std::min(width, height) + 1) continue;
+      const double tolerance = coarse ? 0.02 : kFloatSums;
+      expect_near(project_image(environment, bands), project_image_by_pixels(environment, bands), tolerance);
+    }
+}
+
+TEST(ProjectImage, ConstantRadianceIsOneCoefficient) {
+  for (const Layout layout : all_layouts()) {
+    const int size = 96;
+    Environment environment{Image(layout == Layout::kLatLong ? 2 * size : size, size), layout};
+    for (float& value : environment.image.values) value = 1;
+    const RgbCoefficients c = project_image(environment, 10);
+    EXPECT_NEAR(c[0].r, std::sqrt(4 * pi), 1e-6);
+    for (std::size_t i = 1; i < c.size(); ++i) EXPECT_NEAR(c[i].r, 0, 1e-6) << layout_name(layout) << " " << i;
+  }
+}
+
+// A single bright pixel is nearly a delta light: a flipped axis or a shift by half a pixel shows at once.
+TEST(ProjectImage, ABrightPixelComesFromItsDirection) {
+  for (const Layout layout : all_layouts()) {
+    const int height = 256, width = layout == Layout::kLatLong ? 512 : 256;
+    for (const auto& [x, y] : {std::pair{100, 60}, {170, 190}, {128, 100}}) {
+      Environment environment{Image(width, height), layout};
+      const double solid_angle = pixel_solid_angle(layout, width, height, x, y);
+      environment.image.set_rgb(x, y, {1 / solid_angle, 0, 0});
+      RgbCoefficients delta(6);
+      add_delta(*direction_at(layout, {(x + 0.5) / width, (y + 0.5) / height}), {1, 0, 0}, delta);
+      const RgbCoefficients c = project_image(environment, 6);
+      // A pixel has a size: degree l loses about l(l+1)/4 of its squared radius.
+      for (std::size_t i = 0; i < c.size(); ++i) EXPECT_NEAR(c[i].r, delta[i].r, 1e-3) << layout_name(layout) << i;
+    }
+  }
+}
+
+TEST(ProjectImage, SameBitsForAnyNumberOfThreads) {
+  for (const Layout layout : all_layouts()) {
+    const Environment environment = some_environment(layout, layout == Layout::kLatLong ? 300 : 150, 150);
+    const RgbCoefficients one = project_image(environment, 5, 1);
+    EXPECT_EQ(project_image(environment, 5, 2), one);
+    EXPECT_EQ(project_image(environment, 5, 0), one);
+  }
+}
+
+// The same picture with every pixel made of 8 x 8: sums over 64 times as many pixels end in the same numbers.
+TEST(ProjectImage, SumsDoNotDegradeAt4096x2048) {
+  const Environment small = some_environment(Layout::kLatLong, 512, 256);
+  Environment large{Image(4096, 2048), Layout::kLatLong};
+  for (int y = 0; y < 2048; ++y)
+    for (int x = 0; x < 4096; ++x) large.image.set_rgb(x, y, small.image.rgb(x / 8, y / 8));
+  expect_near(project_image(large, 5), project_image(small, 5), kFloatSums);
+}
+
+TEST(ProjectImage, MoreBandsDoNotChangeTheFirst) {
+  const Environment environment = some_environment(Layout::kLatLong, 256, 128);
+  const RgbCoefficients many = project_image(environment, 40);
+  expect_near(resize_bands(many, 5), project_image(environment, 5), 1e-9);
+}
+
+// Against the coefficients made for the real lights by 2 x 2 Gauss points a pixel in double precision.
+class References : public testing::Test {
+ protected:
+  void SetUp() override {
+    const char* data = std::getenv("SHLIGHT_TEST_DATA");
+    if (!data) GTEST_SKIP() << "SHLIGHT_TEST_DATA names no folder";
+    for (const char* name : {"blender_city.exr", "blender_night.exr", "blender_studio.exr", "polyhaven_1k_city.hdr",
+                             "polyhaven_1k_studio.hdr", "polyhaven_1k_sunset.hdr", "polyhaven_1k_venice.hdr"}) {
+      const std::filesystem::path folder = data;
+      files.push_back(folder / "lights" / name);
+      std::ifstream file(folder / "references" / std::filesystem::path(name).replace_extension(".json"));
+      references.push_back(nlohmann::json::parse(file));
+    }
+  }
+  static Rgb rgb(const nlohmann::json& entry) { return {entry[0], entry[1], entry[2]}; }
+  static Vec3d vec(const nlohmann::json& entry) { return {entry[0], entry[1], entry[2]}; }
+
+  std::vector<std::filesystem::path> files;
+  std::vector<nlohmann::json> references;
+};
+
+TEST_F(References, CoefficientsOfTheSevenLatLongLights) {
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    const auto light = load_light(files[k].string());
+    const RgbCoefficients c = light.light->project(10);
+    RgbCoefficients expected(10);
+    for (std::size_t i = 0; i < 100; ++i) expected[i] = rgb(references[k]["coefs"][i]);
+    double worst = 0;
+    for (std::size_t i = 0; i < 100; ++i) worst = std::max(worst, largest(c[i] - expected[i]) / largest(expected[0]));
+    // A hundred times tighter than what tells right from wrong.
+    EXPECT_LT(worst, 1e-6) << files[k];
+    RecordProperty(files[k].stem().string(), std::to_string(worst));
+    EXPECT_EQ(light.info.pixels.nan + light.info.pixels.inf, references[k]["nonfinite"].get<std::uint64_t>());
+  }
+}
+
+TEST_F(References, NineCoefficientIrradianceAndItsError) {
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    const nlohmann::json& reference = references[k];
+    const RgbCoefficients radiance = load_light(files[k].string()).light->project(3);
+    const RgbCoefficients irradiance = irradiance_from_radiance(radiance);
+    double largest_irradiance = 0, worst = 0;
+    Rgb sum_of_errors, maxima;
+    for (std::size_t j = 0; j < reference["irradiance"].size(); ++j) {
+      const Vec3d n = vec(reference["irradiance_at"][j]);
+      const Rgb exact = rgb(reference["irradiance"][j]), polynomial = eval_irradiance_polynomial(radiance, n);
+      worst = std::max(worst, largest(polynomial - reconstruct(irradiance, n)));
+      largest_irradiance = std::max(largest_irradiance, largest(exact));
+      const Rgb error = polynomial - exact;
+      sum_of_errors += {std::abs(error.r), std::abs(error.g), std::abs(error.b)};
+      maxima = {std::max(maxima.r, exact.r), std::max(maxima.g, exact.g), std::max(maxima.b, exact.b)};
+    }
+    EXPECT_LT(worst, 1e-5 * largest_irradiance);
+    // The references' normalisation: each channel over its own maximum, then the mean of the three.
+    const double count = double(reference["irradiance"].size());
+    const double mean_error =
+        (sum_of_errors.r / maxima.r + sum_of_errors.g / maxima.g + sum_of_errors.b / maxima.b) / (3 * count);
+    const double expected = reference["errors"]["9"]["mean_abs_over_maxE"];
+    EXPECT_NEAR(mean_error, expected, 1e-4 * expected) << files[k];
+  }
+}
+
+}  // namespace
+}  // namespace shlight
