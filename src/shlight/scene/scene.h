@@ -25,7 +25,7 @@ inline constexpr Mat4f kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0,
 struct Material {
   std::string name;
   Vec3f base_color = {0.8f, 0.8f, 0.8f};
-  std::optional<std::uint32_t> texture;  // into Scene::textures; multiplies base_color
+  std::optional<std::uint32_t> texture;  // into Scene::textures; multiplies base_color where texcoords are
 };
 
 // Triangles of one material. All of a loaded mesh's values are finite and every index is below positions.size();
@@ -44,8 +44,8 @@ struct Mesh {
 
 // A mesh put into the world.
 struct Instance {
-  std::uint32_t mesh = 0;  // into Scene::meshes
-  Mat4f to_world = kIdentity;
+  std::uint32_t mesh = 0;      // into Scene::meshes
+  Mat4f to_world = kIdentity;  // of positive determinant: it never mirrors, so triangles stay counter-clockwise
 };
 
 struct Scene {
