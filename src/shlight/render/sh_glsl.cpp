@@ -29,12 +29,12 @@ bool has_degree(Degrees degrees, int l) {
   return degrees == Degrees::kAll || l == 1 || l % 2 == 0;
 }
 
-// The factor in front of the sum's z-polynomials q_l of one m >= 0,
+// The first of the polynomials q_l of z, l = m, m+1 …, that belong to one m >= 0:
 //
-//   Y_lm = q_l(z) Re (x + iy)^m,   Y_l,-m = q_l(z) Im (x + iy)^m,   q_l(z) = √2 K_lm P_l^m(z) / sin^m θ   (no √2 for m
-//   = 0)
+//   Y_lm = q_l(z) Re (x + iy)^m,   Y_l,-m = q_l(z) Im (x + iy)^m,   q_l(z) = √2 K_lm P_l^m(z) / sin^m θ
 //
-// with the first of them constant: q_m = √2 √(1/4π) Π_{k=1..m} √((2k+1)/2k), without Condon-Shortley phase.
+// (without √2 for m = 0), of which the first is constant: q_m = √2 √(1/4π) Π_{k=1..m} √((2k+1)/2k). No Condon-Shortley
+// phase.
 double first_q(int m) {
   double q = std::sqrt(1 / (4 * pi));
   for (int k = 1; k <= m; ++k) q *= std::sqrt((2 * k + 1.0) / (2 * k));
@@ -65,8 +65,9 @@ std::string sum_over_degrees(int bands, int m, Degrees degrees) {
 
 // Σ u_sh[i] Y_i(n) with a block of straight-line code for each |m| [2].
 //
-// Each block but the first is a loop that runs once, as often as a uniform says. As one straight line it takes LLVM, which
-// compiles for Mesa's llvmpipe, a time that grows steeply: 1.3 s for six bands and 12 s for nine, against 0.4 s and 0.7 s.
+// Each block but the first is a loop that runs once, as often as a uniform says. As one straight line it takes LLVM,
+// which compiles for Mesa's llvmpipe, a time that grows steeply: 1.3 s for six bands and 12 s for nine, against 0.4 s
+// and 0.7 s.
 std::string make_sum_glsl(int bands, Degrees degrees) {
   SHLIGHT_ASSERT_LE(1, bands);
   SHLIGHT_ASSERT_LE(bands, kMaxGlslBands);
