@@ -1,0 +1,117 @@
+#include "shlight/render/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shlight/render/matrices.h"
+#include "shlight/render/render_test_util.h"
+
+namespace shlight {
+namespace {
+
+glm::dvec3 project(const View& view, Vec3d p) {
+  const glm::dvec4 clip = to_glm(view.view_to_clip) * to_glm(view.world_to_view) * glm::dvec4(p.x, p.y, p.z, 1);
+  return glm::dvec3(clip) / clip.w;
+}
+
+// The largest |x|, |y|, |z| of the vertices in normalised device coordinates.
+glm::dvec3 largest_ndc(const View& view, const Scene& scene) {
+  glm::dvec3 largest(0);
+  for (const Vec3f& p : scene.meshes[0].positions)
+    largest = glm::max(largest, glm::abs(project(view, vec_cast<double>(p))));
+  return largest;
+}
+
+TEST(Camera, AzimuthAndElevationLookWhereTheySay) {
+  struct Case {
+    double azimuth, elevation;
+    Vec3d right, up;
+  };
+  for (const Case& c : {Case{0, 0, {1, 0, 0}, {0, 1, 0}}, Case{90, 0, {0, 0, -1}, {0, 1, 0}},
+                        Case{180, 0, {-1, 0, 0}, {0, 1, 0}}, Case{0, 90, {1, 0, 0}, {0, 0, -1}}}) {
+    Camera camera;
+    camera.azimuth = c.azimuth;
+    camera.elevation = c.elevation;
+    const View view = make_view(camera, {}, 1);
+    const glm::dvec3 right = project(view, 0.1 * c.right), up = project(view, 0.1 * c.up);
+    const Vec3d toward = cross(c.right, c.up);
+    EXPECT_GT(right.x, 0.01) << c.azimuth << " " << c.elevation;
+    EXPECT_NEAR(right.y, 0, 1e-12);
+    EXPECT_NEAR(up.x, 0, 1e-12);
+    EXPECT_GT(up.y, 0.01) << c.azimuth << " " << c.elevation;
+    EXPECT_LT(project(view, 0.1 * toward).z, project(view, -0.1 * toward).z) << "what is nearer has less depth";
+  }
+}
+
+// Inside the picture from everywhere, and at least this much of its tighter axis.
+constexpr double kLeastFill = 0.55;
+
+TEST(Camera, FramesModelsOfAnyShapeSizeAndPlace) {
+  for (const Vec3d half_axes : {Vec3d{1, 1, 1}, Vec3d{1, 0.05, 1}, Vec3d{0.1, 1, 0.1}, Vec3d{1, 0.3, 2}})
+    for (const double size : {1e-20, 1.0, 1e18})
+      for (const double aspect : {0.5, 1.0, 16.0 / 9, 3.0})
+        for (const double elevation : {-90.0, -20.0, 0.0, 15.0, 60.0, 90.0}) {
+          Mesh mesh = make_ellipsoid(size * half_axes, 24);
+          const auto away = static_cast<float>(5 * size);
+          for (Vec3f& p : mesh.positions) p = p + Vec3f{away, -away, away};
+          const Scene scene = make_test_scene(mesh);
+          Camera camera;
+          camera.elevation = elevation;
+          const glm::dvec3 ndc = largest_ndc(make_view(camera, scene_extent(scene), aspect), scene);
+          const auto where = testing::Message() << half_axes.y << " " << size << " " << aspect << " " << elevation;
+          EXPECT_LT(std::max({ndc.x, ndc.y, ndc.z}), 1) << where;
+          // From straight above a stick shows its tip only.
+          if (std::abs(elevation) < 90) {
+            EXPECT_GT(std::max(ndc.x, ndc.y), kLeastFill) << where;
+          }
+        }
+}
+
+TEST(Camera, DistanceDoesNotChangeWithAzimuth) {
+  const Scene scene = make_test_scene(make_ellipsoid({3, 1, 0.2}));
+  const Extent extent = scene_extent(scene);
+  Camera camera;
+  const double distance = make_view(camera, extent, 1.5).world_to_view[14];
+  camera.azimuth = 77;
+  EXPECT_NEAR(make_view(camera, extent, 1.5).world_to_view[14], distance, 1e-12);
+}
+
+TEST(Camera, ZoomIsSoManyTimesNearer) {
+  Camera camera;
+  const double distance = project(make_view(camera, {}, 1), {}).z;
+  camera.zoom = 20;  // in the model
+  const View view = make_view(camera, {}, 1);
+  EXPECT_TRUE(std::isfinite(distance));
+  EXPECT_LT(std::abs(project(view, {}).z), 1) << "the centre is still between near and far";
+}
+
+TEST(Camera, EmptyAndFlatScenesHaveAnExtent) {
+  EXPECT_EQ(scene_extent({}).radius, 1);
+  Mesh point = make_square();
+  for (Vec3f& p : point.positions) p = {3, 4, 5};
+  const Extent extent = scene_extent(make_test_scene(point));
+  EXPECT_EQ(extent.radius, 1);
+  EXPECT_EQ(extent.center, (Vec3d{3, 4, 5}));
+  for (const double elevation : {0.0, 90.0}) {
+    const Scene square = make_test_scene(make_square());
+    Camera camera;
+    camera.azimuth = 90;  // edge-on
+    camera.elevation = elevation;
+    EXPECT_LT(largest_ndc(make_view(camera, scene_extent(square), 1), square).y, 1);
+  }
+}
+
+TEST(Camera, ExtentFollowsInstances) {
+  Mat4f to_world = kIdentity;
+  to_world[0] = to_world[5] = to_world[10] = 2;
+  to_world[12] = 7;
+  const Extent extent = scene_extent(make_test_scene(make_ellipsoid({1, 1, 1}), {1, 1, 1}, to_world));
+  EXPECT_NEAR(extent.center.x, 7, 1e-5);
+  EXPECT_NEAR(extent.radius, 2, 1e-5);
+  EXPECT_NEAR(extent.half_height, 2, 1e-5);
+}
+
+}  // namespace
+}  // namespace shlight

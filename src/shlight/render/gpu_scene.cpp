@@ -1,0 +1,136 @@
+#include "shlight/render/gpu_scene.h"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+
+#include "shlight/core/assert.h"
+#include "shlight/core/error.h"
+#include "shlight/render/matrices.h"
+
+namespace shlight {
+namespace {
+
+// The locations that mesh.vert gives its attributes.
+enum Attribute { kPosition = 0, kNormal = 1, kTexcoord = 2, kColor = 3 };
+
+// More costs time and is hardly seen.
+constexpr float kMaxAnisotropy = 8;
+
+// The attribute of `values` in a vertex buffer that has one array after the other: filled at `offset`, which moves on.
+// Where a mesh does not have the attribute, its value is the constant that draw() sets.
+template <class T>
+void add_attribute(Attribute attribute, const std::vector<T>& values, std::size_t& offset) {
+  if (values.empty()) return;
+  const std::size_t bytes = values.size() * sizeof(T);
+  glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), values.data());
+  glEnableVertexAttribArray(attribute);
+  glVertexAttribPointer(attribute, sizeof(T) / sizeof(float), GL_FLOAT, GL_FALSE, 0,
+                        reinterpret_cast<const void*>(offset));
+  offset += bytes;
+}
+
+gl::Texture upload_texture(const Image8& image) {
+  const int max_size = gl::get_integer(GL_MAX_TEXTURE_SIZE);
+  if (image.width > max_size || image.height > max_size)
+    throw Error("OpenGL", fmt::format("a texture has {}x{} pixels", image.width, image.height),
+                fmt::format("at most {0}x{0}", max_size));
+  SHLIGHT_ASSERT_EQ(image.values.size(), 4 * static_cast<std::size_t>(image.width) * image.height);
+  gl::Texture texture = gl::make_texture();
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, image.width, image.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+               image.values.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+    float max_anisotropy = 1;
+    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &max_anisotropy);
+    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(max_anisotropy, kMaxAnisotropy));
+  }
+  return texture;
+}
+
+// What materials without a texture use: one pixel, read in the cheapest way.
+gl::Texture make_white_texture() {
+  constexpr unsigned char kWhite[] = {255, 255, 255, 255};
+  gl::Texture texture = gl::make_texture();
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, kWhite);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return texture;
+}
+
+// The matrix of normals is the inverse transpose of that of positions. The cofactor matrix is det times that, and is
+// defined for flat instances too; the sign of det is taken out so that a mirrored instance keeps its normals outside.
+glm::dmat3 normal_matrix(const glm::dmat3& m) {
+  const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+  double largest = 0;
+  for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(cofactors[i / 3][i % 3]));
+  const double sign = glm::determinant(m) < 0 ? -1 : 1;
+  return largest > 0 ? cofactors * (sign / largest) : glm::dmat3(1);
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const Scene& scene)
+    : instances_(scene.instances), materials_(scene.materials), white_(make_white_texture()) {
+  for (const Image8& image : scene.textures) textures_.push_back(upload_texture(image));
+  for (const Mesh& mesh : scene.meshes) {
+    SHLIGHT_ASSERT_LT(mesh.material, scene.materials.size());
+    SHLIGHT_ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+    GpuMesh gpu_mesh = {gl::make_vertex_array(), gl::make_buffer(), gl::make_buffer(),
+                        static_cast<int>(mesh.indices.size()), mesh.material};
+    glBindVertexArray(gpu_mesh.vertex_array.id());
+    glBindBuffer(GL_ARRAY_BUFFER, gpu_mesh.vertices.id());
+    const std::size_t bytes = (mesh.positions.size() + mesh.normals.size() + mesh.colors.size()) * sizeof(Vec3f) +
+                              mesh.texcoords.size() * sizeof(Vec2f);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_STATIC_DRAW);
+    std::size_t offset = 0;
+    add_attribute(kPosition, mesh.positions, offset);
+    add_attribute(kNormal, mesh.normals, offset);
+    add_attribute(kTexcoord, mesh.texcoords, offset);
+    add_attribute(kColor, mesh.colors, offset);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gpu_mesh.indices.id());
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
+                 mesh.indices.data(), GL_STATIC_DRAW);
+    meshes_.push_back(std::move(gpu_mesh));
+  }
+  glBindVertexArray(0);
+  gl::check_errors("the scene's buffers and textures");
+}
+
+void GpuScene::draw(const gl::Program& program, const View& view, const Rotation& light_to_world) const {
+  const glm::dmat4 world_to_clip = to_glm(view.view_to_clip) * to_glm(view.world_to_view);
+  const glm::dmat3 world_to_light = inverse_to_glm(light_to_world);
+  program.use();
+  program.set("u_texture", 0);
+  glActiveTexture(GL_TEXTURE0);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  glVertexAttrib2f(kTexcoord, 0, 0);
+  glVertexAttrib3f(kColor, 1, 1, 1);
+
+  for (const Instance& instance : instances_) {
+    const GpuMesh& mesh = meshes_[instance.mesh];
+    const Material& material = materials_[mesh.material];
+    const glm::dmat4 to_world = to_glm(instance.to_world);
+    program.set("u_object_to_clip", to_mat4f(world_to_clip * to_world));
+    program.set("u_normal_to_light", to_mat3f(world_to_light * normal_matrix(glm::dmat3(to_world))));
+    program.set("u_base_color", material.base_color);
+    glBindTexture(GL_TEXTURE_2D, material.texture ? textures_[*material.texture].id() : white_.id());
+    // A mirroring instance turns the winding around.
+    glFrontFace(glm::determinant(glm::dmat3(to_world)) < 0 ? GL_CW : GL_CCW);
+    glBindVertexArray(mesh.vertex_array.id());
+    glDrawElements(GL_TRIANGLES, mesh.num_indices, GL_UNSIGNED_INT, nullptr);
+  }
+  glFrontFace(GL_CCW);
+  glBindVertexArray(0);
+}
+
+}  // namespace shlight

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "shlight/render/camera.h"
+#include "shlight/render/gl.h"
+#include "shlight/scene/scene.h"
+#include "shlight/sh/rotation.h"
+
+namespace shlight {
+
+// A scene's meshes and textures in the memory of the graphics card, for any renderer whose programs use the vertex
+// shader mesh.vert. Needs the context in which it was made.
+class GpuScene {
+ public:
+  // Throws Error where a texture is bigger than the card takes, or where memory runs out.
+  explicit GpuScene(const Scene& scene);
+
+  // Draws all instances with `program`, into the framebuffer and viewport now bound, with a depth test and both sides
+  // of every triangle. Sets u_object_to_clip and u_normal_to_light of mesh.vert, and u_base_color and u_texture; the
+  // rest is the caller's. `light_to_world` turns the light's frame into the world.
+  void draw(const gl::Program& program, const View& view, const Rotation& light_to_world) const;
+
+ private:
+  struct GpuMesh {
+    gl::VertexArray vertex_array;
+    gl::Buffer vertices, indices;
+    int num_indices = 0;
+    std::uint32_t material = 0;
+  };
+
+  std::vector<GpuMesh> meshes_;
+  std::vector<Instance> instances_;
+  std::vector<Material> materials_;
+  std::vector<gl::Texture> textures_;
+  gl::Texture white_;  // of materials without a texture
+};
+
+}  // namespace shlight

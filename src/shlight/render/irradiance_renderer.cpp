@@ -1,0 +1,18 @@
+#include "shlight/render/irradiance_renderer.h"
+
+#include "shaders.h"
+#include "shlight/render/sh_glsl.h"
+
+namespace shlight {
+
+IrradianceRenderer::IrradianceRenderer(const RgbCoefficients& radiance)
+    : program_(shaders::mesh_vert, shaders::irradiance_frag, make_irradiance_glsl(radiance.bands())) {
+  program_.use();
+  set_irradiance_uniforms(program_, radiance);
+}
+
+void IrradianceRenderer::draw(const GpuScene& scene, const View& view, const Rotation& light_to_world) const {
+  scene.draw(program_, view, light_to_world);
+}
+
+}  // namespace shlight

@@ -1,0 +1,88 @@
+#include "shlight/render/render.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "shlight/core/assert.h"
+#include "shlight/render/background.h"
+#include "shlight/render/context.h"
+#include "shlight/render/gpu_scene.h"
+#include "shlight/render/irradiance_renderer.h"
+#include "shlight/render/targets.h"
+#include "shlight/render/tone_map.h"
+#include "shlight/sh/rotation.h"
+
+namespace shlight {
+namespace {
+
+RgbCoefficients scaled(double factor, RgbCoefficients coefficients) {
+  for (Rgb& c : coefficients.values()) c = factor * c;
+  return coefficients;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+RenderResult render_irradiance(const Scene& scene, const RenderLight& light, const RenderParams& params,
+                               const Progress& progress) {
+  SHLIGHT_ASSERT_LE(1, params.frames);
+  const HeadlessContext context;
+  const RadianceTarget radiance_target(params.width, params.height);
+  const PictureTarget picture_target(params.width, params.height);
+
+  // Half floats hold 6e-5 to 65504 at full precision, so lights are drawn in a unit near their mean, whatever they are
+  // measured in. A power of two: what it takes off a value, it gives back exactly.
+  const double exposure = auto_exposure(light.coefficients);
+  const double unit = std::exp2(std::round(std::log2(exposure)));
+  const RgbCoefficients coefficients = scaled(unit, resize_bands(light.coefficients, params.bands));
+  const Background background =
+      light.background.num_pixels() > 0 ? Background(light.background, unit) : Background(coefficients);
+  const IrradianceRenderer renderer(coefficients);
+  const GpuScene gpu_scene(scene);
+  const ToneMapper tone_mapper;
+
+  const Extent extent = scene_extent(scene);
+  const Rotation light_to_world = rotation_about_y(params.rotate_light * std::numbers::pi / 180);
+  const auto draw = [&](double turn) {
+    Camera camera = params.camera;
+    camera.azimuth += turn;
+    const View view = make_view(camera, extent, static_cast<double>(params.width) / params.height);
+    radiance_target.begin();
+    renderer.draw(gpu_scene, view, light_to_world);
+    if (params.show_background) background.draw(view, light_to_world);
+    radiance_target.resolve();
+    picture_target.begin();
+    tone_mapper.draw(radiance_target.texture(), exposure / unit * std::exp2(params.exposure));
+    glFinish();
+  };
+
+  draw(0);
+  gl::check_errors("the picture");
+  RenderResult result;
+  result.radiance = radiance_target.read(1 / unit);
+  result.picture = picture_target.read();
+  result.gl_renderer = gl_renderer();
+
+  std::vector<double> frame_ms;
+  for (int frame = 0; frame < params.frames; ++frame) {
+    report_progress(progress, static_cast<double>(frame) / params.frames);
+    const auto start = std::chrono::steady_clock::now();
+    draw(360.0 * frame / params.frames);
+    frame_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  }
+  report_progress(progress, 1);
+  result.frame_ms = median(frame_ms);
+  return result;
+}
+
+}  // namespace shlight

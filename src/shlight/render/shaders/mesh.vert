@@ -1,0 +1,23 @@
+#version 300 es
+
+// A mesh, instance by instance. Normals go to the frame in which the light's coefficients are: turning the light is
+// turning every normal the other way.
+
+layout(location = 0) in vec3 a_position;
+layout(location = 1) in vec3 a_normal;
+layout(location = 2) in vec2 a_texcoord;
+layout(location = 3) in vec3 a_color;
+
+uniform mat4 u_object_to_clip;
+uniform mat3 u_normal_to_light;
+
+out highp vec3 v_normal;
+out highp vec2 v_texcoord;
+out highp vec3 v_color;
+
+void main() {
+  v_normal = u_normal_to_light * a_normal;
+  v_texcoord = a_texcoord;
+  v_color = a_color;
+  gl_Position = u_object_to_clip * vec4(a_position, 1.0);
+}

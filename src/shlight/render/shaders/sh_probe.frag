@@ -1,0 +1,13 @@
+#version 300 es
+precision highp float;
+precision highp sampler2D;
+
+// Evaluates the very eval_sh that pictures are drawn with, one direction a pixel.
+
+uniform sampler2D u_directions;
+
+out vec4 o_value;
+
+vec3 eval_sh(vec3 n);
+
+void main() { o_value = vec4(eval_sh(texelFetch(u_directions, ivec2(gl_FragCoord.xy), 0).xyz), 1.0); }

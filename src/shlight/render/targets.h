@@ -1,0 +1,50 @@
+#pragma once
+
+#include "shlight/image/image.h"
+#include "shlight/render/gl.h"
+
+namespace shlight {
+
+// Framebuffers to draw into. All need a current context; constructors throw Error where the driver cannot make them:
+// too big, out of memory, no EXT_color_buffer_float.
+
+// Linear radiance in half floats with a 24-bit depth buffer, antialiased: several samples a pixel, averaged by
+// resolve(). The average is of radiance, as a camera's pixel takes it, so an edge against a light that is many times
+// white stays hard.
+class RadianceTarget {
+ public:
+  RadianceTarget(int width, int height);
+
+  // Binds it, sets the viewport, clears to black and far.
+  void begin() const;
+  // Averages the samples into texture().
+  void resolve() const;
+  // RGBA16F, one value a pixel, rows from the bottom.
+  unsigned texture() const { return texture_.id(); }
+  // What resolve() made, multiplied by `scale`, rows from the top.
+  Image read(double scale) const;
+
+ private:
+  int width_, height_;
+  gl::Renderbuffer color_, depth_;
+  gl::Texture texture_;
+  gl::Framebuffer samples_, resolved_;
+};
+
+// An eight-bit picture.
+class PictureTarget {
+ public:
+  PictureTarget(int width, int height);
+
+  // Binds it and sets the viewport.
+  void begin() const;
+  // Rows from the top, alpha 255.
+  Image8 read() const;
+
+ private:
+  int width_, height_;
+  gl::Texture texture_;
+  gl::Framebuffer framebuffer_;
+};
+
+}  // namespace shlight
