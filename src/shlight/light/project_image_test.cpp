@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 #include <vector>
 
 #include "shlight/light/light.h"
@@ -142,7 +143,9 @@ TEST_F(References, CoefficientsOfTheSevenLatLongLights) {
     for (std::size_t i = 0; i < 100; ++i) worst = std::max(worst, largest(c[i] - expected[i]) / largest(expected[0]));
     // A hundred times tighter than what tells right from wrong.
     EXPECT_LT(worst, 1e-6) << files[k];
-    RecordProperty(files[k].stem().string(), std::to_string(worst));
+    std::ostringstream text;
+    text << worst;
+    RecordProperty(files[k].stem().string(), text.str());
     EXPECT_EQ(light.info.pixels.nan + light.info.pixels.inf, references[k]["nonfinite"].get<std::uint64_t>());
   }
 }

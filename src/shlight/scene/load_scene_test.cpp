@@ -9,8 +9,8 @@
 #include <string>
 
 #include "shlight/core/error.h"
+#include "shlight/core/temporary_folder.h"
 #include "shlight/scene/scene_checks.h"
-#include "shlight/scene/temporary_folder.h"
 
 namespace shlight {
 namespace {

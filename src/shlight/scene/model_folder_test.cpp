@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "shlight/scene/temporary_folder.h"
+#include "shlight/core/temporary_folder.h"
 
 namespace shlight {
 namespace {
