@@ -35,7 +35,7 @@ Image make_lat_long(int width, int threads, PixelValue&& value) {
   return image;
 }
 
-constexpr int kSamples = 3;       // a side, of a pixel
+constexpr int kSamples = 2;       // a side, of a pixel
 constexpr int kDiscSamples = 16;  // of a pixel on a disc's edge: the sun is hardly larger than a pixel
 
 // The mean over a pixel of a disc's radiance.

@@ -33,6 +33,12 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
+RenderLight make_render_light(const Light& light, int bands, int background_width) {
+  RenderLight result{light.project(bands), {}};
+  if (!dynamic_cast<const CoefficientLight*>(&light)) result.background = light.lat_long(background_width);
+  return result;
+}
+
 RenderResult render_irradiance(const Scene& scene, const RenderLight& light, const RenderParams& params,
                                const Progress& progress) {
   SHLIGHT_ASSERT_LE(1, params.frames);

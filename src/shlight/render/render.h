@@ -4,6 +4,7 @@
 
 #include "shlight/core/progress.h"
 #include "shlight/image/image.h"
+#include "shlight/light/light.h"
 #include "shlight/render/camera.h"
 #include "shlight/scene/scene.h"
 #include "shlight/sh/coefficients.h"
@@ -26,6 +27,9 @@ struct RenderLight {
   RgbCoefficients coefficients;  // of radiance
   Image background;              // lat-long radiance, drawn at infinity; empty: reconstructed from the coefficients
 };
+
+// The coefficients and the picture of `light`. Lights that are coefficients themselves need no picture.
+RenderLight make_render_light(const Light& light, int bands, int background_width = 2048);
 
 struct RenderResult {
   Image radiance;       // linear, as lit, without exposure; 16-bit floats' precision

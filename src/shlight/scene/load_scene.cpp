@@ -195,13 +195,29 @@ Scene load_scene(const fs::path& path, const LoadSceneParams& params) {
   return scene;
 }
 
+namespace {
+
+struct BuiltinScene {
+  std::string_view name;
+  Scene (*make)();
+};
+constexpr BuiltinScene kBuiltinScenes[] = {{"builtin:sphere", [] { return make_sphere_scene(); }},
+                                           {"builtin:knot", make_knot_scene},
+                                           {"builtin:scene", make_still_life_scene}};
+
+}  // namespace
+
 Scene make_scene(std::string_view model, const LoadSceneParams& params) {
-  if (model == "builtin:sphere") return make_sphere_scene();
-  if (model == "builtin:knot") return make_knot_scene();
-  if (model == "builtin:scene") return make_still_life_scene();
+  for (const BuiltinScene& builtin : kBuiltinScenes)
+    if (model == builtin.name) return builtin.make();
   if (model.starts_with("builtin:"))
     throw Error(model, "is no built-in model", "builtin:sphere, builtin:knot or builtin:scene");
   return load_scene(model, params);
+}
+
+bool is_builtin_scene(std::string_view model) {
+  return std::any_of(std::begin(kBuiltinScenes), std::end(kBuiltinScenes),
+                     [&](const BuiltinScene& builtin) { return model == builtin.name; });
 }
 
 }  // namespace shlight

@@ -31,4 +31,10 @@ Scene load_scene(const std::filesystem::path& path, const LoadSceneParams& param
 // `model` is a path, or builtin:sphere, builtin:knot, builtin:scene. Throws Error, which lists the built-in names.
 Scene make_scene(std::string_view model, const LoadSceneParams& params = {});
 
+// Whether make_scene knows the built-in model of that name.
+bool is_builtin_scene(std::string_view model);
+
+// Whether a file's ending is one of a model format.
+bool is_model_file(const std::filesystem::path& path);
+
 }  // namespace shlight

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "shlight/core/error.h"
+#include "shlight/scene/load_scene.h"
 #include "shlight/scene/model_folder.h"
 #include "shlight/scene/parsed_scene.h"
 #include "shlight/scene/transform.h"
@@ -234,6 +235,11 @@ ParsedScene parse_scene(const std::filesystem::path& path, std::string_view acce
   ParsedScene scene = convert_scene(*source);
   if (points_and_lines > 0) scene.warnings.push_back(fmt::format("{} points and lines: left out", points_and_lines));
   return scene;
+}
+
+bool is_model_file(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  return !extension.empty() && Assimp::Importer().IsExtensionSupported(extension);
 }
 
 }  // namespace shlight

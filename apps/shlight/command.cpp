@@ -1,0 +1,88 @@
+#include "command.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "shlight/core/error.h"
+
+namespace shlight::app {
+
+const char* const kLightHelp =
+    "Picture (.hdr, .exr, …), coefficient file (.json), builtin:sky|studio|axes|thesis, or a formula \"fn:…\"";
+const char* const kModelHelp = "Model or scene (.x .obj .ply .stl .off .gltf .glb …), or builtin:sphere|knot|scene";
+
+void add_light_options(CLI::App& command, LoadLightParams& params) {
+  std::map<std::string, Layout> layouts;
+  for (const Layout layout : all_layouts()) layouts.emplace(layout_name(layout), layout);
+  command.add_option("--layout", params.layout, "Layout of the picture; told from its shape if not given")
+      ->transform(CLI::Transformer(layouts).description(""))
+      ->check(CLI::IsMember(layouts).description(""))
+      ->type_name("lat-long|angular-map");
+  command.add_option("--max-pixels", params.image.max_pixels, "Refuse pictures with more pixels")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber.description(""));
+}
+
+LoadedLight load_light_aloud(const std::string& light, const LoadLightParams& params) {
+  LoadedLight loaded = load_light(light, params);
+  const LightInfo& info = loaded.info;
+  if (info.layout && !params.layout)
+    spdlog::info("{}: {} x {} pixels, taken as {}", info.name, info.width, info.height, layout_name(*info.layout));
+  if (!info.pixels.clean()) spdlog::warn("{}: {}", info.name, describe(info.pixels));
+  return loaded;
+}
+
+void print_result(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw Error("stdout", fmt::format("cannot be written ({})", std::strerror(errno)),
+                "an open terminal, file or pipe");
+}
+
+void print_json(const nlohmann::ordered_json& json) {
+  print_result(json.dump(2) + "\n");
+}
+
+namespace {
+
+volatile sig_atomic_t stop_signal = 0;
+
+}  // namespace
+
+bool stop_requested() {
+  return stop_signal != 0;
+}
+
+void watch_for_stop() {
+  // The first signal asks; a second one ends the program at once.
+  struct sigaction ask = {};
+  ask.sa_handler = [](int signal) { stop_signal = signal; };
+  ask.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &ask, nullptr);
+  // Writing to a closed pipe is an error like any other.
+  ::signal(SIGPIPE, SIG_IGN);
+}
+
+Progress progress_bar(std::string what) {
+  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  return [what = std::move(what), terminal, shown = -1](double fraction) mutable {
+    const int percent = static_cast<int>(100 * fraction);
+    if (terminal && percent != shown) {
+      constexpr int kWidth = 40;
+      const int filled = percent * kWidth / 100;
+      fmt::print(stderr, "\r{} [{:=<{}}{:{}}] {:3}%", what, "", filled, "", kWidth - filled, percent);
+      if (percent >= 100) fmt::print(stderr, "\r\033[K");
+      std::fflush(stderr);
+      shown = percent;
+    }
+    return !stop_requested();
+  };
+}
+
+}  // namespace shlight::app

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "shlight/core/progress.h"
+#include "shlight/light/light.h"
+
+namespace shlight::app {
+
+// What the chosen command will do, set while the command line is parsed and called by main afterwards.
+using Run = std::function<void()>;
+
+// One function a command: adds it to the program.
+void add_project(CLI::App& program, Run& run);
+void add_render(CLI::App& program, Run& run);
+void add_info(CLI::App& program, Run& run);
+void add_demo(CLI::App& program, Run& run);
+
+// The help of a LIGHT argument, and of a MODEL.
+extern const char* const kLightHelp;
+extern const char* const kModelHelp;
+
+// --layout and --max-pixels of commands that read a light.
+void add_light_options(CLI::App& command, LoadLightParams& params);
+
+// Loads a light and says on stderr what is worth knowing about it.
+LoadedLight load_light_aloud(const std::string& light, const LoadLightParams& params);
+
+// Writes to stdout; throws Error where that is closed or full.
+void print_result(const std::string& text);
+void print_json(const nlohmann::ordered_json& json);
+
+// Shows `what` and a bar on stderr where that is a terminal; stops where the user asked to.
+Progress progress_bar(std::string what);
+
+// True once the user has asked to stop (Ctrl-C, a closed terminal, SIGTERM).
+bool stop_requested();
+void watch_for_stop();
+
+}  // namespace shlight::app

@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "command.h"
+#include "shlight/light/coefficient_file.h"
+#include "shlight/sh/project.h"
+#include "shlight/sh/sphere_samples.h"
+
+namespace shlight::app {
+namespace {
+
+struct ProjectArguments {
+  std::string light;
+  LoadLightParams load;
+  int bands = 3;
+  std::string method = "exact";
+  int samples = 10000;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  std::filesystem::path output;
+  bool json = false;
+};
+
+RgbCoefficients project(const Light& light, const ProjectArguments& arguments) {
+  if (arguments.method == "exact") return light.project(arguments.bands, arguments.threads);
+  const auto samples = make_sphere_samples(arguments.bands, strata_for(arguments.samples), arguments.seed);
+  const auto projection = project_monte_carlo([&](Vec3d d) { return light.radiance(d); }, samples);
+  double largest = 0;
+  for (const Rgb error : projection.standard_error.values()) largest = std::max({largest, error.r, error.g, error.b});
+  spdlog::info("{} samples, largest standard error of a coefficient {:.3g} ({:.3g} of L00's luminance)",
+               samples.directions.size(), largest, largest / std::abs(luminance(projection.coefficients[0])));
+  return projection.coefficients;
+}
+
+std::string table_of(const RgbCoefficients& coefficients) {
+  std::string text = "  l   m           red         green          blue\n";
+  for (int l = 0; l < coefficients.bands(); ++l)
+    for (int m = -l; m <= l; ++m) {
+      const Rgb c = coefficients.at(l, m);
+      text += fmt::format("{:3} {:3}  {:12.6g}  {:12.6g}  {:12.6g}\n", l, m, c.r, c.g, c.b);
+    }
+  return text;
+}
+
+void run_project(const ProjectArguments& arguments) {
+  const LoadedLight loaded = load_light_aloud(arguments.light, arguments.load);
+  const RgbCoefficients coefficients = project(*loaded.light, arguments);
+  if (loaded.info.bands > 0 && loaded.info.bands < arguments.bands)
+    spdlog::warn("{}: holds {} bands; those above are zero", loaded.info.name, loaded.info.bands);
+  if (!arguments.output.empty()) save_coefficients(arguments.output, coefficients);
+  if (arguments.json)
+    print_result(format_coefficients(coefficients));
+  else if (arguments.output.empty())
+    print_result(table_of(coefficients));
+}
+
+}  // namespace
+
+void add_project(CLI::App& program, Run& run) {
+  auto* command = program.add_subcommand("project", "Turn a light into spherical-harmonic coefficients");
+  const auto arguments = std::make_shared<ProjectArguments>();
+  command->add_option("LIGHT", arguments->light, kLightHelp)->required();
+  command->add_option("--bands", arguments->bands, "Bands n: n*n coefficients of degrees 0 … n-1")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 256).description("1 to 256"));
+  add_light_options(*command, arguments->load);
+  command->add_option("--method", arguments->method, "Exact integration, or the thesis's random samples")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"exact", "monte-carlo"}));
+  command->add_option("--samples", arguments->samples, "Samples of monte-carlo, rounded up to a square")
+      ->capture_default_str()
+      ->check(CLI::Range(9, 100'000'000).description("9 to 100000000"));
+  command->add_option("--seed", arguments->seed, "Of monte-carlo: another seed, other samples")->capture_default_str();
+  command->add_option("--threads", arguments->threads, "0: all; the result is the same for any number")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024).description("0 to 1024"));
+  command->add_option("-o,--output", arguments->output, "Write a coefficient file")->type_name("FILE.json");
+  command->add_flag("--json", arguments->json, "Print the coefficient file on stdout");
+  command->footer(
+      "Examples:\n  shlight project venice.hdr --bands 3 -o venice.json\n"
+      "  shlight project \"fn:max(0, 5*cos(theta)-4)\" --bands 4 --method monte-carlo --samples 10000");
+  command->callback([arguments, &run] { run = [arguments] { run_project(*arguments); }; });
+}
+
+}  // namespace shlight::app

@@ -1,0 +1,131 @@
+#include "shlight/render/render.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "shlight/core/error.h"
+#include "shlight/scene/load_scene.h"
+
+namespace shlight::app {
+namespace {
+
+struct RenderArguments {
+  std::string model = "builtin:scene";
+  std::string light = "builtin:sky";
+  LoadLightParams load;
+  RenderParams params;
+  std::filesystem::path output;
+  bool no_background = false;
+  bool json = false;
+};
+
+// "WxH"
+std::string parse_size(const std::string& text, RenderParams& params) {
+  int end = 0;
+  if (std::sscanf(text.c_str(), "%5dx%5d%n", &params.width, &params.height, &end) != 2 ||
+      end != static_cast<int>(text.size()) || params.width < 1 || params.height < 1)
+    return "'" + text + "' is no size such as 1280x720";
+  return "";
+}
+
+// "AZIMUTH,ELEVATION" or "AZIMUTH,ELEVATION,ZOOM"
+std::string parse_camera(const std::string& text, Camera& camera) {
+  int end = 0;
+  const int count =
+      std::sscanf(text.c_str(), "%lf,%lf%n,%lf%n", &camera.azimuth, &camera.elevation, &end, &camera.zoom, &end);
+  const bool good = count >= 2 && end == static_cast<int>(text.size()) && std::abs(camera.azimuth) <= 1e6 &&
+                    std::abs(camera.elevation) <= 90 && camera.zoom >= 0.01 && camera.zoom <= 100;
+  return good ? "" : "'" + text + "' is no camera: azimuth, elevation (-90 to 90) in degrees, zoom (0.01 to 100)";
+}
+
+void run_render(const RenderArguments& arguments) {
+  const Scene scene = make_scene(arguments.model);
+  for (const std::string& warning : scene.warnings) spdlog::warn("{}: {}", arguments.model, warning);
+  const LoadedLight loaded = load_light_aloud(arguments.light, arguments.load);
+
+  RenderParams params = arguments.params;
+  params.show_background = !arguments.no_background;
+  const RenderLight light = make_render_light(*loaded.light, params.bands);
+  const RenderResult result = render_irradiance(scene, light, params, progress_bar("drawing"));
+
+  std::filesystem::path output = arguments.output;
+  if (output.empty() && !arguments.json) output = "render.png";
+  if (output.extension() == ".exr")
+    save_image(output, result.radiance);
+  else if (!output.empty())
+    save_image8(output, result.picture);
+  if (!output.empty())
+    spdlog::info("{}: {} x {}, {} triangles, {:.1f} ms a frame on {}", output.string(), params.width, params.height,
+                 num_triangles(scene), result.frame_ms, result.gl_renderer);
+  if (arguments.json)
+    print_json({{"frame_ms", result.frame_ms},
+                {"width", params.width},
+                {"height", params.height},
+                {"triangles", num_triangles(scene)},
+                {"gl_renderer", result.gl_renderer}});
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, Run& run) {
+  auto* command = program.add_subcommand("render", "Draw a model under a light");
+  const auto arguments = std::make_shared<RenderArguments>();
+  RenderParams& params = arguments->params;
+  command->add_option("MODEL", arguments->model, kModelHelp)->capture_default_str();
+  command->add_option("--light", arguments->light, kLightHelp)->capture_default_str();
+  add_light_options(*command, arguments->load);
+  command->add_option("--bands", params.bands, "Bands of the light's coefficients")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 10).description("1 to 10"));
+  command->add_option("--method", "How the model is lit")
+      ->default_str("irradiance")
+      ->check(CLI::IsMember({"irradiance"}));
+  command
+      ->add_option_function<std::string>(
+          "--camera",
+          [&params](const std::string& text) {
+            if (const std::string wrong = parse_camera(text, params.camera); !wrong.empty())
+              throw CLI::ValidationError("--camera", wrong);
+          },
+          "Around the model: azimuth 0 looks along -Z, 90 along -X")
+      ->type_name("AZIMUTH,ELEVATION[,ZOOM]")
+      ->default_str(fmt::format("{},{},{}", params.camera.azimuth, params.camera.elevation, params.camera.zoom));
+  command
+      ->add_option_function<std::string>(
+          "--size",
+          [&params](const std::string& text) {
+            if (const std::string wrong = parse_size(text, params); !wrong.empty())
+              throw CLI::ValidationError("--size", wrong);
+          },
+          "Of the picture in pixels")
+      ->type_name("WxH")
+      ->default_str(fmt::format("{}x{}", params.width, params.height));
+  command->add_option("--rotate-light", params.rotate_light, "Turn the light about the vertical, degrees")
+      ->capture_default_str()
+      ->check(CLI::Range(-36000.0, 36000.0).description(""));
+  command->add_option("--exposure", params.exposure, "Stops brighter than automatic")
+      ->capture_default_str()
+      ->check(CLI::Range(-60.0, 60.0).description("-60 to 60"));
+  command->add_option("--frames", params.frames, "Draw so many frames with the view turning, for the time of one")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1'000'000).description("1 to 1000000"));
+  command->add_flag("--no-background", arguments->no_background, "Do not draw the light behind the model");
+  command->add_option("-o,--output", arguments->output, "Picture as shown (.png) or linear radiance (.exr)")
+      ->type_name("FILE.png|.exr")
+      ->check(CLI::Validator(
+          [](std::string& name) {
+            const auto extension = std::filesystem::path(name).extension();
+            return extension == ".png" || extension == ".exr" ? "" : "'" + name + "' ends neither in .png nor in .exr";
+          },
+          ""));
+  command->add_flag("--json", arguments->json, "Print the time of a frame and more on stdout");
+  command->footer(
+      "Examples:\n  shlight render skull.x --light venice.hdr -o picture.png\n"
+      "  shlight render builtin:knot --light builtin:studio --bands 5 --camera 20,10,1.2 -o knot.png");
+  command->callback([arguments, &run] { run = [arguments] { run_render(*arguments); }; });
+}
+
+}  // namespace shlight::app
