@@ -106,8 +106,16 @@ std::unique_ptr<Light> make_sky_light(const SkyParams& params) {
       irradiance += 0.5 * rule.weights[i] * up * 2 * pi / kAzimuths * sky({s * std::sin(phi), up, -s * std::cos(phi)});
     }
   const Rgb ground = params.ground / pi * Rgb{irradiance.r, 0.96 * irradiance.g, 0.88 * irradiance.b};
+  // Toward the horizon the ground fades into the haze that stands before it: without an edge there, coefficients ring
+  // less.
+  const auto below = [sky, ground](Vec3d d) {
+    constexpr double kHazeHeight = 0.04;
+    const double haze = std::exp(d.y / kHazeHeight), s = std::hypot(d.x, d.z);
+    if (haze < 1e-4 || s == 0) return ground;
+    return haze * sky({d.x / s, 0, d.z / s}) + (1 - haze) * ground;
+  };
   // A sun on the horizon is half set; its closed form is a whole disc all the same.
-  return std::make_unique<FunctionLight>([sky, ground](Vec3d d) { return d.y >= 0 ? sky(d) : ground; },
+  return std::make_unique<FunctionLight>([sky, below](Vec3d d) { return d.y >= 0 ? sky(d) : below(d); },
                                          std::vector<FunctionLight::Disc>{{sun, kSunHalfAngle, sun_disc}});
 }
 
