@@ -36,14 +36,25 @@ RenderParams shot_params(Camera camera, int bands, double exposure = 0) {
 }
 
 std::vector<Shot> shots() {
-  return {
-      {"scene_sky.png", "builtin:scene", "builtin:sky", shot_params({30, 20}, 3)},
-      {"scene_evening.png", "builtin:scene", "builtin:sky:elevation=6,azimuth=-40,turbidity=4",
-       shot_params({30, 12}, 3)},
-      {"knot_studio.png", "builtin:knot", "builtin:studio", shot_params({20, 12}, 3)},
-      {"sphere_axes.png", "builtin:sphere", "builtin:axes", shot_params({30, 25, 0.6}, 3)},
-      {"sphere_thesis.png", "builtin:sphere", "builtin:thesis", shot_params({60, 20, 0.6}, 4)},
+  std::vector<Shot> all = {
+      {"scene_sky.png", "builtin:scene", "builtin:sky:elevation=40", shot_params({30, 10, 1.1}, 3)},
+      {"scene_evening.png", "builtin:scene", "builtin:sky:elevation=7,azimuth=-110,turbidity=3",
+       shot_params({30, 8, 1.1}, 3)},
+      {"scene_studio.png", "builtin:scene", "builtin:studio", shot_params({30, 14, 1.1}, 3)},
+      {"knot_studio.png", "builtin:knot", "builtin:studio", shot_params({20, 12}, 3, 0.4)},
   };
+  // A sphere among spots on the axes, from two sides that show all six: each faces the sphere's part of its colour.
+  for (const auto& [file, camera] : {std::pair{"axes_from_above.png", Camera{45, 35, 0.7, 100}},
+                                     {"axes_from_below.png", Camera{225, -35, 0.7, 100}}})
+    all.push_back({file, "builtin:sphere", "builtin:axes", shot_params(camera, 3)});
+  // How the thesis's light of two lobes sharpens with the number of bands.
+  for (const auto& [file, bands] : {std::pair{"thesis_1_band.png", 1},
+                                    {"thesis_2_bands.png", 2},
+                                    {"thesis_3_bands.png", 3},
+                                    {"thesis_5_bands.png", 5},
+                                    {"thesis_9_bands.png", 9}})
+    all.push_back({file, "builtin:sphere", "builtin:thesis", shot_params({100, 20}, bands)});
+  return all;
 }
 
 void run_demo(const DemoArguments& arguments) {

@@ -100,7 +100,7 @@ std::unique_ptr<Light> make_studio_light() {
 }
 
 std::unique_ptr<Light> make_axes_light() {
-  const double half_angle = 20 * kDegree;
+  const double half_angle = 25 * kDegree;
   return std::make_unique<FunctionLight>(
       [](Vec3d) {
         return Rgb{0.04, 0.04, 0.04};

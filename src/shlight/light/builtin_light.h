@@ -22,7 +22,7 @@ std::unique_ptr<Light> make_sky_light(const SkyParams& params);
 // A photographer's studio: a warm key soft box, a cool fill, a strip from behind, a wide one overhead, on grey.
 std::unique_ptr<Light> make_studio_light();
 
-// An orientation test: on each axis a disc of 20° half angle; +X red, −X cyan, +Y green, −Y magenta, +Z blue, −Z
+// An orientation test: on each axis a disc of 25° half angle; +X red, −X cyan, +Y green, −Y magenta, +Z blue, −Z
 // yellow.
 std::unique_ptr<Light> make_axes_light();
 
