@@ -117,8 +117,8 @@ class Formula {
     }
     if (!std::isfinite(value))
       throw Error("fn",
-                  fmt::format("'{}' is {} at x = {:.6g}, y = {:.6g}, z = {:.6g}", text_, value, direction_.x,
-                              direction_.y, direction_.z),
+                  fmt::format("'{}' is {} at x = {:.6g}, y = {:.6g}, z = {:.6g}", text_,
+                              std::isnan(value) ? "NaN" : "infinite", direction_.x, direction_.y, direction_.z),
                   "a formula with a finite value in every direction");
     return value;
   }
