@@ -3,6 +3,10 @@
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <type_traits>
+
+#include "shlight/sh/clones.h"
 
 namespace shlight {
 namespace {
@@ -62,9 +66,46 @@ class BandRecursion {
 
 }  // namespace
 
+Rotation operator*(const Rotation& first, const Rotation& second) {
+  const Rotation columns = inverse(second);
+  Rotation product;
+  for (std::size_t i = 0; i < 3; ++i) product.rows[i] = columns(first.rows[i]);
+  return product;
+}
+
+Rotation inverse(const Rotation& rotation) {
+  const auto& [x, y, z] = rotation.rows;
+  return {{Vec3d{x.x, y.x, z.x}, Vec3d{x.y, y.y, z.y}, Vec3d{x.z, y.z, z.z}}};
+}
+
 Rotation rotation_about_y(double radians) {
   const double c = std::cos(radians), s = std::sin(radians);
   return {{Vec3d{c, 0, s}, Vec3d{0, 1, 0}, Vec3d{-s, 0, c}}};
+}
+
+Rotation rotation_about_z(double radians) {
+  const double c = std::cos(radians), s = std::sin(radians);
+  return {{Vec3d{c, -s, 0}, Vec3d{s, c, 0}, Vec3d{0, 0, 1}}};
+}
+
+Rotation rotation_zyz(double z2, double y, double z1) {
+  return rotation_about_z(z2) * rotation_about_y(y) * rotation_about_z(z1);
+}
+
+Rotation rotation_from_quaternion(double w, double x, double y, double z) {
+  const double length2 = w * w + x * x + y * y + z * z;
+  assert(length2 > 0);
+  const double s = 2 / length2;
+  return {{Vec3d{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},
+           Vec3d{s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x)},
+           Vec3d{s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y)}}};
+}
+
+bool is_rotation(const Rotation& rotation, double tolerance) {
+  const auto& [x, y, z] = rotation.rows;
+  const auto near = [&](double a, double b) { return std::abs(a - b) <= tolerance; };
+  return near(dot(x, x), 1) && near(dot(y, y), 1) && near(dot(z, z), 1) && near(dot(x, y), 0) && near(dot(y, z), 0) &&
+         near(dot(x, z), 0) && near(dot(cross(x, y), z), 1);
 }
 
 RotationMatrix::RotationMatrix(int bands, const Rotation& rotation) {
@@ -95,6 +136,102 @@ RgbCoefficients rotate(const RotationMatrix& matrix, const RgbCoefficients& coef
 
 RgbCoefficients rotate(const Rotation& rotation, const RgbCoefficients& coefficients) {
   return rotate(RotationMatrix(coefficients.bands(), rotation), coefficients);
+}
+
+RgbCoefficients rotate_about_z(double radians, const RgbCoefficients& coefficients) {
+  RgbCoefficients result = coefficients;
+  for (int m = 1; m < coefficients.bands(); ++m) {
+    const double c = std::cos(m * radians), s = std::sin(m * radians);
+    for (int l = m; l < coefficients.bands(); ++l) {
+      const Rgb cosine = coefficients.at(l, m), sine = coefficients.at(l, -m);
+      result.at(l, m) = c * cosine - s * sine;
+      result.at(l, -m) = s * cosine + c * sine;
+    }
+  }
+  return result;
+}
+
+namespace {
+
+constexpr std::size_t kLanes = 16;
+typedef float Lanes __attribute__((vector_size(kLanes * sizeof(float))));
+
+// One degree of `lanes` vectors at once. Rows = 2l+1 at compile time keeps the inputs in registers.
+template <int Rows, class Size>
+SHLIGHT_ALWAYS_INLINE inline void rotate_degree(const float* matrix, const float* values, float* result,
+                                                std::size_t count, Size lanes) {
+  Lanes inputs[Rows] = {};
+#pragma GCC unroll 16
+  for (int k = 0; k < Rows; ++k)
+    std::memcpy(&inputs[k], values + static_cast<std::size_t>(k) * count, lanes * sizeof(float));
+  for (int i = 0; i < Rows; ++i) {
+    Lanes sum = {};
+#pragma GCC unroll 16
+    for (int k = 0; k < Rows; ++k) sum += matrix[i * Rows + k] * inputs[k];
+    std::memcpy(result + static_cast<std::size_t>(i) * count, &sum, lanes * sizeof(float));
+  }
+}
+
+// The same for any number of rows.
+template <class Size>
+SHLIGHT_ALWAYS_INLINE inline void rotate_high_degree(int rows, const float* matrix, const float* values, float* result,
+                                                     std::size_t count, Size lanes) {
+  for (int i = 0; i < rows; ++i) {
+    Lanes sum = {}, input = {};
+    for (int k = 0; k < rows; ++k) {
+      std::memcpy(&input, values + static_cast<std::size_t>(k) * count, lanes * sizeof(float));
+      sum += matrix[i * rows + k] * input;
+    }
+    std::memcpy(result + static_cast<std::size_t>(i) * count, &sum, lanes * sizeof(float));
+  }
+}
+
+// All degrees of one block of vectors. `matrix` holds the blocks of all degrees one after the other, in float.
+template <class Size>
+SHLIGHT_ALWAYS_INLINE inline void rotate_block(int bands, const float* matrix, const float* values, float* result,
+                                               std::size_t count, Size lanes) {
+  for (int l = 0; l < bands; ++l) {
+    const int rows = 2 * l + 1;
+    const std::size_t first = static_cast<std::size_t>(l) * static_cast<std::size_t>(l) * count;
+    switch (l) {
+      case 0:
+        rotate_degree<1>(matrix, values, result, count, lanes);
+        break;
+      case 1:
+        rotate_degree<3>(matrix, values + first, result + first, count, lanes);
+        break;
+      case 2:
+        rotate_degree<5>(matrix, values + first, result + first, count, lanes);
+        break;
+      case 3:
+        rotate_degree<7>(matrix, values + first, result + first, count, lanes);
+        break;
+      case 4:
+        rotate_degree<9>(matrix, values + first, result + first, count, lanes);
+        break;
+      default:
+        rotate_high_degree(rows, matrix, values + first, result + first, count, lanes);
+    }
+    matrix += rows * rows;
+  }
+}
+
+SHLIGHT_CLONES void rotate_many(int bands, const float* matrix, const float* values, float* result, std::size_t count) {
+  std::size_t j = 0;
+  for (; j + kLanes <= count; j += kLanes)
+    rotate_block(bands, matrix, values + j, result + j, count, std::integral_constant<std::size_t, kLanes>{});
+  if (j < count) rotate_block(bands, matrix, values + j, result + j, count, count - j);
+}
+
+}  // namespace
+
+void rotate(const RotationMatrix& matrix, std::span<const float> values, std::span<float> result, std::size_t count) {
+  assert(values.size() == count * static_cast<std::size_t>(num_coefficients(matrix.bands())));
+  assert(result.size() == values.size());
+  std::vector<float> blocks;
+  for (int l = 0; l < matrix.bands(); ++l)
+    for (const double element : matrix.block(l)) blocks.push_back(static_cast<float>(element));
+  rotate_many(matrix.bands(), blocks.data(), values.data(), result.data(), count);
 }
 
 }  // namespace shlight

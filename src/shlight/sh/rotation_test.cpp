@@ -40,12 +40,24 @@ TEST(Rotation, TurnsADeltaToItsNewDirection) {
   }
 }
 
+TEST(Rotation, CommutesWithEvaluationTo1e12At32Bands) {
+  const Rotation rotation = oblique_rotation();
+  const RgbCoefficients light = some_light(32);
+  const RgbCoefficients turned = rotate(rotation, light);
+  double scale = 0;
+  for (const Rgb c : light.values()) scale += c.g * c.g;
+  for (const Vec3d d : make_sphere_samples(0, 5, 7).directions)
+    EXPECT_NEAR(reconstruct(turned, rotation(d)).g, reconstruct(light, d).g, 1e-12 * std::sqrt(scale));
+}
+
 TEST(Rotation, CommutesWithEvaluationTo64Bands) {
   const Rotation rotation = oblique_rotation();
   const RgbCoefficients light = some_light(64);
   const RgbCoefficients turned = rotate(rotation, light);
+  double scale = 0;
+  for (const Rgb c : light.values()) scale += c.g * c.g;
   for (const Vec3d d : make_sphere_samples(0, 3, 7).directions)
-    EXPECT_NEAR(reconstruct(turned, rotation(d)).g, reconstruct(light, d).g, 1e-10);
+    EXPECT_NEAR(reconstruct(turned, rotation(d)).g, reconstruct(light, d).g, 1e-11 * std::sqrt(scale));
 }
 
 TEST(Rotation, TwelveTurnsOf30DegreesReturn) {
@@ -54,6 +66,58 @@ TEST(Rotation, TwelveTurnsOf30DegreesReturn) {
   RgbCoefficients turned = light;
   for (int i = 0; i < 12; ++i) turned = rotate(step, turned);
   for (std::size_t i = 0; i < light.size(); ++i) EXPECT_NEAR(turned[i].r, light[i].r, 1e-13);
+}
+
+double largest_difference(const RgbCoefficients& a, const RgbCoefficients& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    largest = std::max({largest, std::abs(a[i].r - b[i].r), std::abs(a[i].g - b[i].g), std::abs(a[i].b - b[i].b)});
+  return largest;
+}
+
+TEST(Rotation, MatricesComposeAndInvert) {
+  const RgbCoefficients light = some_light(32);
+  const Rotation a = oblique_rotation(), b = rotation_zyz(0.4, 2.1, -1.3);
+  EXPECT_LT(largest_difference(rotate(a * b, light), rotate(a, rotate(b, light))), 1e-12);
+  EXPECT_LT(largest_difference(rotate(inverse(a), rotate(a, light)), light), 1e-12);
+}
+
+TEST(Rotation, EveryWayToNameARotation) {
+  const Rotation zyz = rotation_zyz(0.4, 2.1, -1.3);
+  EXPECT_TRUE(is_rotation(zyz, 1e-14));
+  EXPECT_FALSE(is_rotation({{Vec3d{1, 0, 0}, Vec3d{0, 0, 1}, Vec3d{0, 1, 0}}}));  // a mirror
+  EXPECT_FALSE(is_rotation({{Vec3d{2, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}}));
+  // 1.1 radians about (2, −1, 2)/3, of a length that does not matter.
+  const double c = 5 * std::cos(0.55), s = 5 * std::sin(0.55);
+  const Rotation quaternion = rotation_from_quaternion(c, s * 2 / 3, -s / 3, s * 2 / 3), expected = oblique_rotation();
+  for (const Vec3d d : make_sphere_samples(0, 3, 5).directions) {
+    EXPECT_NEAR(dot(quaternion(d) - expected(d), quaternion(d) - expected(d)), 0, 1e-28);
+    const Vec3d by_steps = rotation_about_z(0.4)(rotation_about_y(2.1)(rotation_about_z(-1.3)(d)));
+    EXPECT_NEAR(dot(zyz(d) - by_steps, zyz(d) - by_steps), 0, 1e-28);
+  }
+}
+
+TEST(Rotation, AboutZWithoutAMatrix) {
+  const RgbCoefficients light = some_light(20);
+  EXPECT_LT(largest_difference(rotate_about_z(0.7, light), rotate(rotation_about_z(0.7), light)), 1e-13);
+}
+
+TEST(Rotation, ManyAtOnceInFloatCommuteWithEvaluation) {
+  for (const int bands : {1, 2, 3, 5, 8, 32})
+    for (const std::size_t count : {std::size_t{1}, std::size_t{16}, std::size_t{37}}) {
+      const RotationMatrix matrix(bands, oblique_rotation());
+      const auto size = static_cast<std::size_t>(num_coefficients(bands));
+      std::vector<float> values(size * count), result(values.size());
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(std::sin(double(i * i % 1009)));
+      rotate(matrix, values, result, count);
+      for (std::size_t j = 0; j < count; ++j) {
+        RgbCoefficients one(bands);
+        for (std::size_t i = 0; i < size; ++i) one[i] = {values[i * count + j], 0, 0};
+        const RgbCoefficients turned = rotate(matrix, one);
+        for (std::size_t i = 0; i < size; ++i)
+          EXPECT_NEAR(result[i * count + j], turned[i].r, 1e-6) << bands << " bands, coefficient " << i;
+      }
+    }
 }
 
 TEST(Rotation, AboutYTakesZToX) {
