@@ -18,7 +18,7 @@ LINK = re.compile(r"\]\(([^)#:]+)(?:#[^)]*)?\)")
 
 
 def run_faults(document, lines, tool):
-    environment = dict(os.environ, PATH=f"{tool}{os.pathsep}{os.environ['PATH']}")
+    environment = dict(os.environ, PATH=f"{tool.resolve()}{os.pathsep}{os.environ['PATH']}")
     with tempfile.TemporaryDirectory() as folder:
         for line in lines:
             result = subprocess.run(line, shell=True, cwd=folder, env=environment, capture_output=True, text=True)
