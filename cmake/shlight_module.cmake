@@ -18,7 +18,9 @@ function(shlight_module name)
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
                                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:shlight_options>)
+  target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  # How this library is compiled, which is nothing that the installed one has to say to others.
+  set_property(TARGET ${target} APPEND PROPERTY LINK_LIBRARIES shlight_options)
   set_property(GLOBAL APPEND PROPERTY SHLIGHT_MODULES ${name})
   install(FILES ${arg_HEADERS} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/shlight/${name})
 
@@ -38,5 +40,9 @@ function(shlight_module name)
     add_executable(${name}_bench ${arg_BENCHMARKS})
     target_link_libraries(${name}_bench PRIVATE shlight::${name} ${arg_TEST_LIBRARIES} benchmark::benchmark
                                                 benchmark::benchmark_main shlight_options)
+    if(SHLIGHT_WITH_TESTS)
+      # That a benchmark still starts is tested; how long it takes is not, on machines that nobody knows.
+      add_test(NAME ${name}_bench_starts COMMAND ${name}_bench --benchmark_list_tests)
+    endif()
   endif()
 endfunction()

@@ -10,7 +10,7 @@
 
 #include "shlight/core/error.h"
 #include "shlight/core/temporary_folder.h"
-#include "shlight/scene/scene_checks.h"
+#include "shlight/scene/scene_test_util.h"
 
 namespace shlight {
 namespace {

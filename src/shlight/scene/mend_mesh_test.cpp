@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "shlight/scene/scene_checks.h"
+#include "shlight/scene/scene_test_util.h"
 #include "shlight/scene/shapes.h"
 
 namespace shlight {

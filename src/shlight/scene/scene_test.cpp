@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "shlight/scene/scene_checks.h"
+#include "shlight/scene/scene_test_util.h"
 #include "shlight/scene/shapes.h"
 #include "shlight/scene/transform.h"
 

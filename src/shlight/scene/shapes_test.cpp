@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "shlight/scene/scene_checks.h"
+#include "shlight/scene/scene_test_util.h"
 
 namespace shlight {
 namespace {

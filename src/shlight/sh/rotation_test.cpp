@@ -120,6 +120,19 @@ TEST(Rotation, ManyAtOnceInFloatCommuteWithEvaluation) {
     }
 }
 
+// docs/conventions.md, "Other conventions".
+TEST(Rotation, ToZUpIsTheDocumentedTable) {
+  const Rotation z_up = {{Vec3d{1, 0, 0}, Vec3d{0, 0, -1}, Vec3d{0, 1, 0}}};
+  EXPECT_EQ(z_up({.36, .48, .80}), (Vec3d{.36, -.80, .48}));
+  const RgbCoefficients light = some_light(3);
+  const auto c = [&](std::size_t i) { return light[i].r; };
+  const double half_root_3 = std::sqrt(3.0) / 2;
+  const double documented[9] = {
+      c(0), -c(2), c(1), c(3), -c(7), -c(5), -c(6) / 2 - half_root_3 * c(8), c(4), -half_root_3 * c(6) + c(8) / 2};
+  const RgbCoefficients turned = rotate(z_up, light);
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(turned[i].r, documented[i], 1e-15) << "coefficient " << i;
+}
+
 TEST(Rotation, AboutYTakesZToX) {
   const Vec3d v = rotation_about_y(pi / 2)({0, 0, 1});
   EXPECT_NEAR(v.x, 1, 1e-15);
