@@ -37,10 +37,10 @@ RenderParams shot_params(Camera camera, int bands, double exposure = 0) {
 
 std::vector<Shot> shots() {
   std::vector<Shot> all = {
-      {"scene_sky.png", "builtin:scene", "builtin:sky:elevation=40", shot_params({30, 10, 1.1}, 3)},
-      {"scene_evening.png", "builtin:scene", "builtin:sky:elevation=7,azimuth=-110,turbidity=3",
-       shot_params({30, 8, 1.1}, 3)},
-      {"scene_studio.png", "builtin:scene", "builtin:studio", shot_params({30, 14, 1.1}, 3)},
+      {"scene_sky.png", "builtin:scene", "builtin:sky", shot_params({30, 7, 1.15}, 3, 0.6)},
+      {"scene_evening.png", "builtin:scene", "builtin:sky:elevation=8,azimuth=-110,turbidity=3",
+       shot_params({35, 6, 1.15}, 3, 0.4)},
+      {"scene_studio.png", "builtin:scene", "builtin:studio", shot_params({30, 14, 1.1}, 3, 0.4)},
       {"knot_studio.png", "builtin:knot", "builtin:studio", shot_params({20, 12}, 3, 0.4)},
   };
   // A sphere among spots on the axes, from two sides that show all six: each faces the sphere's part of its colour.

@@ -12,9 +12,9 @@ namespace shlight {
 // Preetham, Shirley & Smits 1999, A Practical Analytic Model for Daylight: the clear sky and the disc of the sun, and
 // below the horizon a diffuse ground that they light. In units of 10 kcd/m².
 struct SkyParams {
-  double elevation = 35;   // of the sun above the horizon, degrees, [0, 90]
-  double azimuth = -150;   // of the sun, degrees: behind the left shoulder of who looks along −Z
-  double turbidity = 2.5;  // haze: 2 very clear, 10 hazy; [1.7, 10]
+  double elevation = 30;   // of the sun above the horizon, degrees, [0, 90]
+  double azimuth = -125;   // of the sun, degrees: behind the left shoulder of who looks along −Z
+  double turbidity = 2.2;  // haze: 2 very clear, 10 hazy; [1.7, 10]
   double ground = 0.2;     // the ground's reflectance, [0, 1]
 };
 std::unique_ptr<Light> make_sky_light(const SkyParams& params);
