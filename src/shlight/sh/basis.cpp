@@ -284,6 +284,22 @@ void NormalizedLegendre::eval(double z, double s, std::span<double> p) const {
   }
 }
 
+void NormalizedLegendre::eval_with_derivative(double z, std::span<double> p, std::span<double> derivative) const {
+  assert(derivative.size() == size());
+  eval(z, 1, p);
+  // Each step of the recursion p = a z p₁ − b p₂ differentiated: p' = a (p₁ + z p₁') − b p₂'.
+  if (p.empty()) return;
+  derivative[0] = 0;
+  for (std::size_t l = 1; l < static_cast<std::size_t>(bands_); ++l) {
+    const std::size_t row = l * (l + 1) / 2, above = row - l, above2 = above - (l - 1);
+    for (std::size_t m = 0; m < l; ++m) {
+      derivative[row + m] = factors_[row + m].a * (p[above + m] + z * derivative[above + m]);
+      if (m + 1 < l) derivative[row + m] -= factors_[row + m].b * derivative[above2 + m];
+    }
+    derivative[row + l] = factors_[row + l].a * derivative[above + l - 1];
+  }
+}
+
 double reconstruct(const Coefficients<double>& coefficients, Vec3d direction) {
   return reconstruct_sum(coefficients, direction);
 }

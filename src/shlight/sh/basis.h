@@ -54,6 +54,8 @@ class NormalizedLegendre {
   int bands() const { return bands_; }
   std::size_t size() const { return factors_.size(); }
   void eval(double z, double s, std::span<double> p) const;
+  // Divided by s^m, which leaves polynomials in z, and their derivatives.
+  void eval_with_derivative(double z, std::span<double> p, std::span<double> derivative) const;
 
  private:
   struct Factors {
