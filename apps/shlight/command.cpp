@@ -22,8 +22,7 @@ void add_light_options(CLI::App& command, LoadLightParams& params) {
   std::map<std::string, Layout> layouts;
   for (const Layout layout : all_layouts()) layouts.emplace(layout_name(layout), layout);
   command.add_option("--layout", params.layout, "Layout of the picture; told from its shape if not given")
-      ->transform(CLI::Transformer(layouts).description(""))
-      ->check(CLI::IsMember(layouts).description(""))
+      ->transform(CLI::CheckedTransformer(layouts).description(""))
       ->type_name("lat-long|angular-map");
   command.add_option("--max-pixels", params.image.max_pixels, "Refuse pictures with more pixels")
       ->capture_default_str()
