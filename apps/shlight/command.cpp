@@ -29,6 +29,15 @@ void add_light_options(CLI::App& command, LoadLightParams& params) {
       ->check(CLI::PositiveNumber.description(""));
 }
 
+CLI::Validator number_from(double low, double high) {
+  const auto check = [low, high](std::string& text) {
+    double value = 0;
+    const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+    return good ? "" : fmt::format("'{}' is no number from {} to {}", text, low, high);
+  };
+  return CLI::Validator(check, fmt::format("{} to {}", low, high));
+}
+
 LoadedLight load_light_aloud(const std::string& light, const LoadLightParams& params) {
   LoadedLight loaded = load_light(light, params);
   const LightInfo& info = loaded.info;

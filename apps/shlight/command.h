@@ -27,6 +27,9 @@ extern const char* const kModelHelp;
 // --layout and --max-pixels of commands that read a light.
 void add_light_options(CLI::App& command, LoadLightParams& params);
 
+// Numbers in [low, high]; unlike CLI::Range, it does not take NaN for one.
+CLI::Validator number_from(double low, double high);
+
 // Loads a light and says on stderr what is worth knowing about it.
 LoadedLight load_light_aloud(const std::string& light, const LoadLightParams& params);
 
