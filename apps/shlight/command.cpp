@@ -1,5 +1,6 @@
 #include "command.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
@@ -65,6 +66,12 @@ volatile sig_atomic_t stop_signal = 0;
 
 bool stop_requested() {
   return stop_signal != 0;
+}
+
+void keep_standard_streams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+    // open() takes the lowest number that is free: this one. Read-only, so that writing to it fails as it did.
+    if (::fcntl(stream, F_GETFD) < 0 && ::open("/dev/null", O_RDONLY) < 0) return;
 }
 
 void watch_for_stop() {

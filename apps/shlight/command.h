@@ -44,4 +44,7 @@ Progress progress_bar(std::string what);
 bool stop_requested();
 void watch_for_stop();
 
+// A standard stream that the program was started without would else be the next file it opens.
+void keep_standard_streams();
+
 }  // namespace shlight::app
