@@ -1,5 +1,6 @@
 #include "command.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
@@ -22,12 +23,20 @@ void add_light_options(CLI::App& command, LoadLightParams& params) {
   std::map<std::string, Layout> layouts;
   for (const Layout layout : all_layouts()) layouts.emplace(layout_name(layout), layout);
   command.add_option("--layout", params.layout, "Layout of the picture; told from its shape if not given")
-      ->transform(CLI::Transformer(layouts).description(""))
-      ->check(CLI::IsMember(layouts).description(""))
+      ->transform(CLI::CheckedTransformer(layouts).description(""))
       ->type_name("lat-long|angular-map");
   command.add_option("--max-pixels", params.image.max_pixels, "Refuse pictures with more pixels")
       ->capture_default_str()
       ->check(CLI::PositiveNumber.description(""));
+}
+
+CLI::Validator number_from(double low, double high) {
+  const auto check = [low, high](std::string& text) {
+    double value = 0;
+    const bool good = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+    return good ? "" : fmt::format("'{}' is no number from {} to {}", text, low, high);
+  };
+  return CLI::Validator(check, fmt::format("{} to {}", low, high));
 }
 
 LoadedLight load_light_aloud(const std::string& light, const LoadLightParams& params) {
@@ -57,6 +66,12 @@ volatile sig_atomic_t stop_signal = 0;
 
 bool stop_requested() {
   return stop_signal != 0;
+}
+
+void keep_standard_streams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+    // open() takes the lowest number that is free: this one. Read-only, so that writing to it fails as it did.
+    if (::fcntl(stream, F_GETFD) < 0 && ::open("/dev/null", O_RDONLY) < 0) return;
 }
 
 void watch_for_stop() {

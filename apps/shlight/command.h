@@ -27,6 +27,9 @@ extern const char* const kModelHelp;
 // --layout and --max-pixels of commands that read a light.
 void add_light_options(CLI::App& command, LoadLightParams& params);
 
+// Numbers in [low, high]; unlike CLI::Range, it does not take NaN for one.
+CLI::Validator number_from(double low, double high);
+
 // Loads a light and says on stderr what is worth knowing about it.
 LoadedLight load_light_aloud(const std::string& light, const LoadLightParams& params);
 
@@ -40,5 +43,8 @@ Progress progress_bar(std::string what);
 // True once the user has asked to stop (Ctrl-C, a closed terminal, SIGTERM).
 bool stop_requested();
 void watch_for_stop();
+
+// A standard stream that the program was started without would else be the next file it opens.
+void keep_standard_streams();
 
 }  // namespace shlight::app

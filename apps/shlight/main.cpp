@@ -2,8 +2,12 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <exception>
+#include <iostream>
 #include <new>
+#include <optional>
+#include <sstream>
 
 #include "command.h"
 #include "shlight/core/error.h"
@@ -21,12 +25,27 @@ void set_up_log(bool quiet) {
   spdlog::set_default_logger(logger);
 }
 
+// The exit code where the command line asks for no command: it is wrong, or wants help.
+std::optional<int> parse(CLI::App& program, int argc, char** argv) {
+  try {
+    program.parse(argc, argv);
+    // Not required above: CLI11 would then not name the word that it takes for no command.
+    if (program.get_subcommands().empty()) throw CLI::RequiredError::Subcommand(1);
+    return {};
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream help;
+    if (program.exit(error, help, std::cerr) != 0) return kWrongUsage;
+    shlight::app::print_result(help.str());
+    return 0;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App program("shlight lights things with spherical harmonics.\n", "shlight");
   program.set_version_flag("--version", SHLIGHT_VERSION);
-  program.require_subcommand(1);
+  program.require_subcommand(0, 1);
   program.footer(
       "Start with:  shlight demo -o demo\nThen:        shlight COMMAND --help  shows an example of each command.");
   bool quiet = false;
@@ -37,20 +56,20 @@ int main(int argc, char** argv) {
   shlight::app::add_render(program, run);
   shlight::app::add_info(program, run);
   shlight::app::add_demo(program, run);
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : kWrongUsage;
-  }
 
-  const std::string command = program.get_subcommands().front()->get_name();
-  const auto fail = [&](const std::string& text) {
-    fmt::print(stderr, "shlight {}: {}\n", command, text);
+  const auto fail = [&](std::string text) {
+    // One line, whatever the name of a file holds.
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+    const auto commands = program.get_subcommands();
+    fmt::print(stderr, "shlight{}: {}\n", commands.empty() ? "" : " " + commands.front()->get_name(), text);
     return kFailed;
   };
   try {
-    set_up_log(quiet);
+    shlight::app::keep_standard_streams();
     shlight::app::watch_for_stop();
+    if (const auto exit_code = parse(program, argc, argv)) return *exit_code;
+    set_up_log(quiet);
     run();
     return 0;
   } catch (const std::bad_alloc&) {

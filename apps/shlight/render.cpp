@@ -105,10 +105,10 @@ void add_render(CLI::App& program, Run& run) {
       ->default_str(fmt::format("{}x{}", params.width, params.height));
   command->add_option("--rotate-light", params.rotate_light, "Turn the light about the vertical, degrees")
       ->capture_default_str()
-      ->check(CLI::Range(-36000.0, 36000.0).description(""));
+      ->check(number_from(-36000, 36000));
   command->add_option("--exposure", params.exposure, "Stops brighter than automatic")
       ->capture_default_str()
-      ->check(CLI::Range(-60.0, 60.0).description("-60 to 60"));
+      ->check(number_from(-60, 60));
   command->add_option("--frames", params.frames, "Draw so many frames with the view turning, for the time of one")
       ->capture_default_str()
       ->check(CLI::Range(1, 1'000'000).description("1 to 1000000"));

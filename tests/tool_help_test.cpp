@@ -1,0 +1,73 @@
+// Help, version and wrong usage.
+
+#include <gtest/gtest.h>
+
+#include "tool_test_util.h"
+
+namespace shlight {
+namespace {
+
+class ToolHelp : public ToolTest {};
+
+TEST_F(ToolHelp, EveryCommandHasAnExample) {
+  const ToolRun program = run({"--help"});
+  EXPECT_EQ(program.err, "");
+  for (const std::string command : {"project", "render", "info", "demo"}) {
+    EXPECT_NE(program.out.find("\n  " + command + " "), std::string::npos) << program;
+    const ToolRun help = run({command, "--help"});
+    EXPECT_EQ(help.err, "");
+    EXPECT_NE(help.out.find("Usage: shlight " + command), std::string::npos) << help;
+    EXPECT_NE(help.out.find("\n  shlight " + command + " "), std::string::npos) << "an example\n" << help;
+  }
+}
+
+TEST_F(ToolHelp, SaysItsVersion) {
+  const ToolRun version = run({"--version"});
+  EXPECT_EQ(version.out, SHLIGHT_VERSION "\n");
+  EXPECT_EQ(version.err, "");
+}
+
+// Each wrong in one way, with what the message must name.
+TEST_F(ToolHelp, WrongUsageIsExplained) {
+  struct Case {
+    std::vector<std::string> arguments;
+    std::string named;
+  };
+  const std::string png = path("a.png");
+  for (const auto& [arguments, named] :
+       {Case{{}, "A subcommand is required"},
+        {{"rendr"}, "rendr"},
+        {{"--no-such-option"}, "--no-such-option"},
+        {{"project"}, "LIGHT is required"},
+        {{"project", "builtin:sky", "builtin:axes"}, "builtin:axes"},
+        {{"project", "builtin:sky", "--bands", "0"}, "--bands: Value 0 not in range 1 to 256"},
+        {{"project", "builtin:sky", "--bands"}, "--bands"},
+        {{"project", "builtin:sky", "--layout", "spherical"}, "spherical"},
+        {{"project", "builtin:sky", "--samples", "1"}, "--samples: Value 1 not in range 9 to"},
+        {{"info"}, "FILE is required"},
+        {{"info", "builtin:sky", "--max-pixels", "0"}, "--max-pixels"},
+        {{"render", "-o", path("a.jpg")}, "a.jpg' ends neither in .png nor in .exr"},
+        {{"render", "-o", png, "--size", "0x0"}, "'0x0' is no size such as 1280x720"},
+        {{"render", "-o", png, "--size", "640x480x3"}, "'640x480x3' is no size"},
+        {{"render", "-o", png, "--size", "-5x5"}, "'-5x5' is no size"},
+        {{"render", "-o", png, "--camera", "0,91"}, "'0,91' is no camera"},
+        {{"render", "-o", png, "--camera", "0,nan"}, "'0,nan' is no camera"},
+        {{"render", "-o", png, "--camera", "0,0,0"}, "'0,0,0' is no camera"},
+        {{"render", "-o", png, "--camera", "0,0,1,"}, "'0,0,1,' is no camera"},
+        {{"render", "-o", png, "--bands", "11"}, "--bands: Value 11 not in range 1 to 10"},
+        {{"render", "-o", png, "--frames", "0"}, "--frames: Value 0 not in range 1 to"},
+        {{"render", "-o", png, "--exposure", "inf"}, "'inf' is no number from -60 to 60"},
+        {{"render", "-o", png, "--rotate-light", "nan"}, "'nan' is no number from -36000 to 36000"},
+        {{"demo", "here"}, "here"}}) {
+    const ToolRun run = run_tool(arguments);
+    const auto where = testing::Message() << testing::PrintToString(arguments) << "\n" << run;
+    EXPECT_EQ(run.exit_code, 2) << where;
+    EXPECT_EQ(run.out, "") << where;
+    EXPECT_NE(run.err.find(named), std::string::npos) << where;
+    EXPECT_NE(run.err.find("--help"), std::string::npos) << where;
+  }
+  EXPECT_TRUE(contents().empty());
+}
+
+}  // namespace
+}  // namespace shlight
