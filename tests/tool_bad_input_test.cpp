@@ -127,8 +127,8 @@ TEST_F(ToolBadInput, Formulas) {
   expect_bad("y = 1", "'y = 1' has a '=' that compares nothing");
   expect_bad("r=1; q=2", "'q=2' is no part r=, g= or b=");
   expect_bad("r=1; r=2", "'r' is given twice");
-  expect_bad("1/0", "'1/0' is inf at x = ");
-  expect_bad("sqrt(x)", "'sqrt(x)' is -nan at x = -");
+  expect_bad("1/0", "'1/0' is infinite at x = ");
+  expect_bad("sqrt(x)", "'sqrt(x)' is NaN at x = -");
   expect_bad(std::string(10001, '1'), "the formula has 10001 characters: at most 10000 characters");
   expect_bad(std::string(9999, '('), "does not parse");
 }

@@ -1,6 +1,6 @@
 // Which way is up, left and forward, from a file of each layout to the picture.
 //
-// The light builtin:axes has a disc of 20° half angle on each axis: +X red, −X cyan, +Y green, −Y magenta, +Z blue, −Z
+// The light builtin:axes has a disc of 25° half angle on each axis: +X red, −X cyan, +Y green, −Y magenta, +Z blue, −Z
 // yellow. What a camera must see of it is computed here anew, from the documentation alone: --camera AZ,EL stands at
 // (sin AZ cos EL, sin EL, cos AZ cos EL) and looks at the origin.
 
@@ -36,7 +36,7 @@ constexpr std::array<Spot, 6> kSpots = {{{"red", {1, 0, 0}, {6, 0.2, 0.2}},
                                          {"blue", {0, 0, 1}, {0.2, 0.2, 6}},
                                          {"yellow", {0, 0, -1}, {6, 6, 0.2}}}};
 constexpr double kGrey = 0.04;  // between the spots, and added to them
-constexpr double kHalfAngle = 20 * kDegree;
+constexpr double kHalfAngle = 25 * kDegree;
 
 struct View {
   double azimuth, elevation;  // degrees

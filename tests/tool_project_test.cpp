@@ -5,10 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <sstream>
 
 #include "shlight/light/builtin_light.h"
 #include "shlight/light/coefficient_file.h"
+#include "shlight/sh/basis.h"
+#include "shlight/sh/rotation.h"
+#include "shlight/sh/sphere_samples.h"
+#include "shlight/sh/window.h"
+#include "shlight/sh/zonal.h"
 #include "tool_test_util.h"
 
 namespace shlight {
@@ -136,6 +142,46 @@ TEST_F(ToolProject, AFormulaIsALight) {
   EXPECT_NEAR(c.at(0, 0).r, std::sqrt(4 * M_PI), 1e-12);
   EXPECT_NEAR(c.at(1, -1).b, std::sqrt(4 * M_PI / 3), 1e-12);
   EXPECT_EQ(c.at(0, 0).g, 0);
+}
+
+TEST_F(ToolProject, RotateTurnsTheLight) {
+  // A quarter turn about +Y takes +Z to +X: as angles about z, y, z, as a quaternion and as a matrix.
+  const RgbCoefficients expected =
+      rotate(rotation_about_y(std::numbers::pi / 2), load_light("builtin:sky").light->project(3));
+  for (const char* rotation : {"0,90,0", "0.7071067811865476,0,0.7071067811865476,0", "0,0,1,0,1,0,-1,0,0"}) {
+    run({"project", "builtin:sky", "--rotate", rotation, "-o", path("a.json")});
+    const RgbCoefficients turned = load_coefficients(path("a.json"));
+    for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(turned[i].g, expected[i].g, 1e-12) << rotation;
+  }
+  for (const char* wrong : {"", "1", "1,2", "0,0,0,0", "1,2,x", "nan,0,0", "1,0,0,0,1,0,0,0,-1", "2,0,0,0,1,0,0,0,1"})
+    EXPECT_EQ(run_tool({"project", "builtin:sky", "--rotate", wrong}).exit_code, 2) << wrong;
+}
+
+TEST_F(ToolProject, WindowsTakeTheRingingAway) {
+  // A low sun: cut off after three bands, its irradiance is negative on the far side.
+  RgbCoefficients sun(3);
+  add_delta({.36, .48, .80}, {1, 1, 1}, sun);
+  save_coefficients(path("sun.json"), sun);
+  const auto darkest = [&](const std::string& window) {
+    run({"project", path("sun.json"), "--window", window, "-o", path("a.json")});
+    const RgbCoefficients irradiance = irradiance_from_radiance(load_coefficients(path("a.json")));
+    double smallest = 1;
+    for (const Vec3d d : make_sphere_samples(0, 60, 1).directions)
+      smallest = std::min(smallest, reconstruct(irradiance, d).g);
+    return smallest;
+  };
+  EXPECT_LT(darkest("none"), -0.01);
+  EXPECT_GE(darkest("auto"), 0);
+  EXPECT_LT(darkest("auto"), 1e-3);  // and no smoother than that takes
+  EXPECT_GT(darkest("laplacian:0.5"), 0);
+  run({"project", path("sun.json"), "--window", "hann:3", "-o", path("hann.json")});
+  EXPECT_EQ(load_coefficients(path("hann.json")), apply_window(Window::kHann, 1.0 / 3, sun));
+  run({"project", path("sun.json"), "--window", "lanczos:4", "-o", path("lanczos.json")});
+  EXPECT_EQ(load_coefficients(path("lanczos.json")), apply_window(Window::kLanczos, 1.0 / 4, sun));
+  const ToolRun told = run({"project", path("sun.json"), "--window", "auto"});
+  EXPECT_NE(told.err.find("certified to be at least 0"), std::string::npos) << told.err;
+  for (const char* wrong : {"", "hann", "hann:0", "hann:x", "laplacian:-1", "boxcar:3", "auto:1"})
+    EXPECT_EQ(run_tool({"project", "builtin:sky", "--window", wrong}).exit_code, 2) << wrong;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "shlight/core/progress.h"
 #include "shlight/light/light.h"
+#include "shlight/sh/rotation.h"
 
 namespace shlight::app {
 
@@ -26,6 +27,16 @@ extern const char* const kModelHelp;
 
 // --layout and --max-pixels of commands that read a light.
 void add_light_options(CLI::App& command, LoadLightParams& params);
+
+// How a light is turned and its coefficients are smoothed: --rotate and --window of project and render.
+struct LightShape {
+  Rotation rotation;
+  std::string window = "none";
+};
+void add_shape_options(CLI::App& command, LightShape& shape);
+
+// The windowed coefficients; says on stderr what an automatic window did.
+RgbCoefficients apply_window(const LightShape& shape, const RgbCoefficients& coefficients);
 
 // Numbers in [low, high]; unlike CLI::Range, it does not take NaN for one.
 CLI::Validator number_from(double low, double high);

@@ -15,6 +15,7 @@ namespace {
 struct ProjectArguments {
   std::string light;
   LoadLightParams load;
+  LightShape shape;
   int bands = 3;
   std::string method = "exact";
   int samples = 10000;
@@ -47,7 +48,8 @@ std::string table_of(const RgbCoefficients& coefficients) {
 
 void run_project(const ProjectArguments& arguments) {
   const LoadedLight loaded = load_light_aloud(arguments.light, arguments.load);
-  const RgbCoefficients coefficients = project(*loaded.light, arguments);
+  const RgbCoefficients projected = project(*loaded.light, arguments);
+  const RgbCoefficients coefficients = apply_window(arguments.shape, rotate(arguments.shape.rotation, projected));
   if (loaded.info.bands > 0 && loaded.info.bands < arguments.bands)
     spdlog::warn("{}: holds {} bands; those above are zero", loaded.info.name, loaded.info.bands);
   if (!arguments.output.empty()) save_coefficients(arguments.output, coefficients);
@@ -67,6 +69,7 @@ void add_project(CLI::App& program, Run& run) {
       ->capture_default_str()
       ->check(CLI::Range(1, 256).description("1 to 256"));
   add_light_options(*command, arguments->load);
+  add_shape_options(*command, arguments->shape);
   command->add_option("--method", arguments->method, "Exact integration, or the thesis's random samples")
       ->capture_default_str()
       ->check(CLI::IsMember({"exact", "monte-carlo"}));

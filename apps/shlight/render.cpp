@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "command.h"
 #include "shlight/core/error.h"
@@ -16,6 +17,8 @@ struct RenderArguments {
   std::string model = "builtin:scene";
   std::string light = "builtin:sky";
   LoadLightParams load;
+  LightShape shape;
+  double rotate_light = 0;  // degrees about +Y
   RenderParams params;
   std::filesystem::path output;
   bool no_background = false;
@@ -48,7 +51,9 @@ void run_render(const RenderArguments& arguments) {
 
   RenderParams params = arguments.params;
   params.show_background = !arguments.no_background;
-  const RenderLight light = make_render_light(*loaded.light, params.bands);
+  params.rotate_light = rotation_about_y(arguments.rotate_light * std::numbers::pi / 180) * arguments.shape.rotation;
+  RenderLight light = make_render_light(*loaded.light, params.bands);
+  light.coefficients = apply_window(arguments.shape, light.coefficients);
   const RenderResult result = render_irradiance(scene, light, params, progress_bar("drawing"));
 
   std::filesystem::path output = arguments.output;
@@ -77,6 +82,7 @@ void add_render(CLI::App& program, Run& run) {
   command->add_option("MODEL", arguments->model, kModelHelp)->capture_default_str();
   command->add_option("--light", arguments->light, kLightHelp)->capture_default_str();
   add_light_options(*command, arguments->load);
+  add_shape_options(*command, arguments->shape);
   command->add_option("--bands", params.bands, "Bands of the light's coefficients")
       ->capture_default_str()
       ->check(CLI::Range(1, 10).description("1 to 10"));
@@ -103,7 +109,7 @@ void add_render(CLI::App& program, Run& run) {
           "Of the picture in pixels")
       ->type_name("WxH")
       ->default_str(fmt::format("{}x{}", params.width, params.height));
-  command->add_option("--rotate-light", params.rotate_light, "Turn the light about the vertical, degrees")
+  command->add_option("--rotate-light", arguments->rotate_light, "Turn the light about the vertical, degrees")
       ->capture_default_str()
       ->check(number_from(-36000, 36000));
   command->add_option("--exposure", params.exposure, "Stops brighter than automatic")

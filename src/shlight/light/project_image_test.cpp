@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -13,6 +14,8 @@
 
 #include "shlight/light/light.h"
 #include "shlight/sh/basis.h"
+#include "shlight/sh/minimum.h"
+#include "shlight/sh/window.h"
 #include "shlight/sh/zonal.h"
 
 namespace shlight {
@@ -174,6 +177,35 @@ TEST_F(References, NineCoefficientIrradianceAndItsError) {
     const double expected = reference["errors"]["9"]["mean_abs_over_maxE"];
     EXPECT_NEAR(mean_error, expected, 1e-4 * expected) << files[k];
   }
+}
+
+// Proved non-negative, and no smoother than needed: with 2 % less a negative value can be shown.
+TEST_F(References, AutomaticWindowsOfRealLights) {
+  // A value that the irradiance has somewhere, as near to its minimum as the search comes.
+  const auto smallest = [](const RgbCoefficients& radiance) {
+    const RgbCoefficients irradiance = irradiance_from_radiance(radiance);
+    double value = std::numeric_limits<double>::infinity();
+    for (const auto channel : {&Rgb::r, &Rgb::g, &Rgb::b}) {
+      std::vector<double> values;
+      for (const Rgb c : irradiance.values()) values.push_back(c.*channel);
+      value = std::min(value, find_minimum(values, radiance.bands()).value);
+    }
+    return value;
+  };
+  int windowed = 0;
+  for (const auto& file : files) {
+    const RgbCoefficients all = load_light(file.string()).light->project(8);
+    for (const int bands : {3, 5, 8}) {
+      const RgbCoefficients radiance = resize_bands(all, bands);
+      const AutoWindow result = make_auto_window(Window::kLaplacian, Positive::kIrradiance, radiance);
+      EXPECT_GE(result.lower_bound, 0) << file;
+      EXPECT_GE(smallest(result.coefficients), result.lower_bound) << file;
+      if (result.strength == 0) continue;
+      EXPECT_LT(smallest(apply_window(Window::kLaplacian, 0.98 * result.strength, radiance)), 0) << file;
+      ++windowed;
+    }
+  }
+  EXPECT_GT(windowed, 0);
 }
 
 }  // namespace

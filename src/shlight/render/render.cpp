@@ -15,7 +15,6 @@
 #include "shlight/render/irradiance_renderer.h"
 #include "shlight/render/targets.h"
 #include "shlight/render/tone_map.h"
-#include "shlight/sh/rotation.h"
 
 namespace shlight {
 namespace {
@@ -58,14 +57,13 @@ RenderResult render_irradiance(const Scene& scene, const RenderLight& light, con
   const ToneMapper tone_mapper;
 
   const Extent extent = scene_extent(scene);
-  const Rotation light_to_world = rotation_about_y(params.rotate_light * std::numbers::pi / 180);
   const auto draw = [&](double turn) {
     Camera camera = params.camera;
     camera.azimuth += turn;
     const View view = make_view(camera, extent, static_cast<double>(params.width) / params.height);
     radiance_target.begin();
-    renderer.draw(gpu_scene, view, light_to_world);
-    if (params.show_background) background.draw(view, light_to_world);
+    renderer.draw(gpu_scene, view, params.rotate_light);
+    if (params.show_background) background.draw(view, params.rotate_light);
     radiance_target.resolve();
     picture_target.begin();
     tone_mapper.draw(radiance_target.texture(), exposure / unit * std::exp2(params.exposure));

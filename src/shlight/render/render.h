@@ -8,6 +8,7 @@
 #include "shlight/render/camera.h"
 #include "shlight/scene/scene.h"
 #include "shlight/sh/coefficients.h"
+#include "shlight/sh/rotation.h"
 
 namespace shlight {
 
@@ -16,9 +17,9 @@ struct RenderParams {
   int height = 720;
   int bands = 3;  // of the irradiance, 1 to 10; the light has as many or more, further ones of it are not used
   Camera camera;
-  double rotate_light = 0;  // degrees about +Y, counter-clockwise seen from above
-  double exposure = 0;      // stops, on top of auto_exposure() of the light
-  int frames = 1;           // at least 1: how many are timed; the view turns once around in them
+  Rotation rotate_light;  // of the light, before it falls on the scene
+  double exposure = 0;    // stops, on top of auto_exposure() of the light
+  int frames = 1;         // at least 1: how many are timed; the view turns once around in them
   bool show_background = true;
 };
 

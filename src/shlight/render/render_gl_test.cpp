@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -128,9 +129,9 @@ TEST_F(Render, TurningTheLightIsTurningItsCoefficients) {
   const RgbCoefficients light = delta_light(5, {0.48, 0.64, 0.6}, {1, 2, 3});
   for (const double degrees : {90.0, -35.0}) {
     RenderParams params = test_params(20, 10);
-    params.rotate_light = degrees;
+    params.rotate_light = rotation_about_y(degrees * std::numbers::pi / 180);
     const Image turned = draw(sphere_, light, params);
-    params.rotate_light = 0;
+    params.rotate_light = {};
     const Rotation rotation = rotation_about_y(degrees * std::numbers::pi / 180);
     const Image expected = draw(sphere_, rotate(rotation, light), params);
     EXPECT_LT(max_difference(turned, expected), kShadingTolerance) << degrees;
@@ -147,7 +148,7 @@ TEST_F(Render, TurningTheLightWithTheCameraChangesNothing) {
   RenderParams params = test_params(10, 20);
   const Image before = draw(sphere_, light, params, background);
   params.camera.azimuth += 75;
-  params.rotate_light = 75;
+  params.rotate_light = rotation_about_y(75 * std::numbers::pi / 180);
   EXPECT_LT(max_difference(draw(sphere_, light, params, background), before), kShadingTolerance);
 }
 
@@ -162,7 +163,7 @@ TEST_F(Render, QuarterTurnOfTheLightIsAMovedPicture) {
   RenderParams params = test_params(0, -15);
   const RgbCoefficients light = constant_light(3, {1, 1, 1});
   const Image expected = draw(sphere_, light, params, moved);
-  params.rotate_light = 90;
+  params.rotate_light = rotation_about_y(std::numbers::pi / 2);
   EXPECT_LT(max_difference(draw(sphere_, light, params, background), expected), kShadingTolerance);
 }
 

@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "command.h"
+#include "shlight/sh/window.h"
+
+namespace shlight::app {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// Comma-separated finite numbers; nothing where the text is anything else.
+std::optional<std::vector<double>> parse_numbers(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& part : CLI::detail::split(text, ',')) {
+    double value = 0;
+    if (!CLI::detail::lexical_cast(part, value) || !std::isfinite(value)) return {};
+    numbers.push_back(value);
+  }
+  return numbers;
+}
+
+// Three numbers are angles about z, y and z, four a quaternion, nine the rows of a matrix.
+std::optional<Rotation> parse_rotation(const std::string& text) {
+  const auto n = parse_numbers(text).value_or(std::vector<double>());
+  if (n.size() == 3) return rotation_zyz(n[0] * kDegree, n[1] * kDegree, n[2] * kDegree);
+  if (n.size() == 4 && n[0] * n[0] + n[1] * n[1] + n[2] * n[2] + n[3] * n[3] > 1e-12)
+    return rotation_from_quaternion(n[0], n[1], n[2], n[3]);
+  if (n.size() == 9) {
+    const Rotation rotation = {{Vec3d{n[0], n[1], n[2]}, Vec3d{n[3], n[4], n[5]}, Vec3d{n[6], n[7], n[8]}}};
+    if (is_rotation(rotation, 1e-4)) return rotation;
+  }
+  return {};
+}
+
+// "hann:6": a window and the first degree that it takes away; "laplacian:0.01": and its λ.
+struct NamedWindow {
+  Window window;
+  double strength;
+};
+std::optional<NamedWindow> parse_window(const std::string& text) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const std::string name = text.substr(0, colon);
+  double value = 0;
+  if (colon == text.size() || !CLI::detail::lexical_cast(text.substr(colon + 1), value) || !(value > 0) ||
+      !std::isfinite(value))
+    return {};
+  if (name == "hann") return NamedWindow{Window::kHann, 1 / value};
+  if (name == "lanczos") return NamedWindow{Window::kLanczos, 1 / value};
+  if (name == "laplacian") return NamedWindow{Window::kLaplacian, value};
+  return {};
+}
+
+bool is_automatic(const std::string& window) {
+  return window == "auto" || window == "auto-radiance";
+}
+
+}  // namespace
+
+void add_shape_options(CLI::App& command, LightShape& shape) {
+  command
+      .add_option_function<std::string>(
+          "--rotate",
+          [&shape](const std::string& text) {
+            const auto rotation = parse_rotation(text);
+            if (!rotation)
+              throw CLI::ValidationError("--rotate",
+                                         "'" + text +
+                                             "' is no rotation: three angles in degrees about z, "
+                                             "y and z (the last one first), a quaternion w,x,y,z, or the nine "
+                                             "numbers of a rotation matrix, row by row");
+            shape.rotation = *rotation;
+          },
+          "Turn the light: angles about z, y, z in degrees, a quaternion, or a matrix")
+      ->type_name("Z,Y,Z|W,X,Y,Z|9 NUMBERS");
+  command
+      .add_option(
+          "--window", shape.window,
+          "Smooth the coefficients against ringing: auto does just enough for irradiance to be nowhere negative, "
+          "auto-radiance for radiance")
+      ->capture_default_str()
+      ->type_name("none|auto|auto-radiance|hann:W|lanczos:W|laplacian:LAMBDA")
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            const bool good = text == "none" || is_automatic(text) || parse_window(text);
+            return good ? ""
+                        : "'" + text +
+                              "' is no window: none, auto, auto-radiance, hann:6 and lanczos:6 (the first degree "
+                              "taken away), or laplacian:0.01";
+          },
+          ""));
+}
+
+RgbCoefficients apply_window(const LightShape& shape, const RgbCoefficients& coefficients) {
+  if (shape.window == "none") return coefficients;
+  if (const auto named = parse_window(shape.window)) return apply_window(named->window, named->strength, coefficients);
+  const bool radiance = shape.window == "auto-radiance";
+  const AutoWindow result =
+      make_auto_window(Window::kLaplacian, radiance ? Positive::kRadiance : Positive::kIrradiance, coefficients);
+  spdlog::info("window {}: {}, {} certified to be at least {:.3g} everywhere, {:.1f} % of the contrast kept",
+               shape.window, result.strength == 0 ? "nothing to do" : fmt::format("laplacian:{:.4g}", result.strength),
+               radiance ? "radiance" : "irradiance", result.lower_bound, 100 * result.contrast_kept);
+  return result.coefficients;
+}
+
+}  // namespace shlight::app
