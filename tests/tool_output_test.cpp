@@ -34,7 +34,7 @@ TEST_F(ToolOutput, PlacesThatTakeNoFile) {
 // Nothing that was there before a failure is lost, and a success replaces it whole.
 TEST_F(ToolOutput, OldFilesAreReplacedWholeOrKept) {
   const std::string file = write("a.json", std::string(100000, 'x'));
-  expect_refused({"project", "fn:1/0", "-o", file}, "fn", "'1/0' is inf");
+  expect_refused({"project", "fn:1/0", "-o", file}, "fn", "'1/0' is infinite");
   run({"project", "builtin:axes", "-o", file});
   EXPECT_EQ(text_of(file), run({"project", "builtin:axes", "--json"}).out);
   EXPECT_EQ(contents().size(), 1u);
