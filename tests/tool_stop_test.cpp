@@ -23,7 +23,8 @@ TEST_F(ToolStop, LeavesNothingHalfDone) {
     // As early as it can be handled, and while frames are drawn.
     for (const int delay_ms : {0, 1500}) {
       const std::string output = delay_ms > 0 ? old : path("new.png");
-      ToolProcess tool({"render", "builtin:sphere", "--frames", "1000000", "--size", "160x120", "-o", output});
+      ToolProcess tool({"render", "builtin:sphere", "--frames", "1000000", "--size", "160x120", "-o", output},
+                       {.timeout = 2 * kPatience});
       ASSERT_TRUE(tool.wait_until_it_handles(signal));
       std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
       tool.send(signal);
@@ -37,7 +38,8 @@ TEST_F(ToolStop, LeavesNothingHalfDone) {
 }
 
 TEST_F(ToolStop, ASecondSignalEndsItAtOnce) {
-  ToolProcess tool({"render", "builtin:sphere", "--frames", "1000000", "--size", "160x120", "-o", path("a.png")});
+  ToolProcess tool({"render", "builtin:sphere", "--frames", "1000000", "--size", "160x120", "-o", path("a.png")},
+                   {.timeout = 2 * kPatience});
   ASSERT_TRUE(tool.wait_until_it_handles(SIGINT));
   tool.send(SIGINT);
   tool.send(SIGINT);
