@@ -44,6 +44,7 @@ TEST_F(ToolHelp, WrongUsageIsExplained) {
         {{"project", "builtin:sky", "--bands"}, "--bands"},
         {{"project", "builtin:sky", "--layout", "spherical"}, "spherical"},
         {{"project", "builtin:sky", "--samples", "1"}, "--samples: Value 1 not in range 9 to"},
+        {{"project", "builtin:axes", "-o", ""}, "--output: the file's name is empty"},
         {{"info"}, "FILE is required"},
         {{"info", "builtin:sky", "--max-pixels", "0"}, "--max-pixels"},
         {{"render", "-o", path("a.jpg")}, "a.jpg' ends neither in .png nor in .exr"},

@@ -80,7 +80,9 @@ void add_project(CLI::App& program, Run& run) {
   command->add_option("--threads", arguments->threads, "0: all; the result is the same for any number")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024).description("0 to 1024"));
-  command->add_option("-o,--output", arguments->output, "Write a coefficient file")->type_name("FILE.json");
+  command->add_option("-o,--output", arguments->output, "Write a coefficient file")
+      ->type_name("FILE.json")
+      ->check(CLI::Validator([](std::string& name) { return name.empty() ? "the file's name is empty" : ""; }, ""));
   command->add_flag("--json", arguments->json, "Print the coefficient file on stdout");
   command->footer(
       "Examples:\n  shlight project venice.hdr --bands 3 -o venice.json\n"
