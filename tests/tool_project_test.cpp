@@ -144,6 +144,14 @@ TEST_F(ToolProject, AFormulaIsALight) {
   EXPECT_EQ(c.at(0, 0).g, 0);
 }
 
+TEST_F(ToolProject, MoreSamplesThanFitIntoMemoryAreRefused) {
+  const ToolRun refused =
+      run_tool({"project", "builtin:axes", "--method", "monte-carlo", "--bands", "256", "--samples", "100000000"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_EQ(refused.err,
+            "shlight project: --samples 100000000: needs too much memory: at most 4096 samples at 256 bands\n");
+}
+
 TEST_F(ToolProject, RotateTurnsTheLight) {
   // A quarter turn about +Y takes +Z to +X: as angles about z, y, z, as a quaternion and as a matrix.
   const RgbCoefficients expected =
