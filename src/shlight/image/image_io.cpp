@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <type_traits>
 
 #include "shlight/core/error.h"
 #include "shlight/core/file.h"
@@ -154,10 +155,17 @@ Result load_fenced(const Source& source, const LoadImageParams& params, Decode d
       source.bytes.empty() ? std::filesystem::file_size(source.name) : source.bytes.size();
   const FencedBytes fenced = run_fenced(source.name, kAcceptedPictures, limits_for_file(params.fence, file_bytes),
                                         [&](FencedBytes& out) { decode(source, params, out); });
+  // A reader that a hostile file has got hold of can write anything: its size and its values must agree.
   Result result;
+  constexpr std::size_t kChannels = std::is_same_v<Result, Image> ? 3 : 4;
   const auto bytes = fenced.bytes();
-  int size[2];
-  std::memcpy(size, bytes.data(), sizeof size);
+  int size[2] = {};
+  if (bytes.size() >= sizeof size) std::memcpy(size, bytes.data(), sizeof size);
+  const std::size_t value_bytes = kChannels * sizeof(result.values[0]);
+  if (size[0] <= 0 || size[1] <= 0 ||
+      (bytes.size() - sizeof size) / value_bytes !=
+          static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]))
+    throw malformed(source, "");
   result.width = size[0], result.height = size[1];
   const auto* values =
       reinterpret_cast<const typename decltype(result.values)::value_type*>(bytes.data() + sizeof size);
