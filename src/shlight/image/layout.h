@@ -31,7 +31,19 @@
 
 namespace shlight {
 
-enum class Layout { kLatLong, kAngularMap };
+enum class Layout {
+  kLatLong,
+  kAngularMap,
+  kMirrorBall,
+  kCube,  // six files or a DDS file; in memory a vertical strip
+  kVerticalCross,
+  kHorizontalCross,
+  kHorizontalStrip,
+  kVerticalStrip,
+  kOctahedral,
+  kOpenExrLatLong,
+  kOpenExrCube
+};
 
 // The names that the tool and its files use: "lat-long", "angular-map".
 std::string_view layout_name(Layout layout);
