@@ -111,7 +111,7 @@ class ToolOrientation : public ToolDrawingTest {
     run({"render", "builtin:sphere", "--light", light, "--camera", view.text() + "," + std::to_string(kZoom), "--size",
          std::to_string(kWidth) + "x" + std::to_string(kHeight), "--rotate-light", rotate_light, "-o",
          path("draw.exr")});
-    return load_image(folder_ / "draw.exr");
+    return load_image(folder_ / "draw.exr").image;
   }
 };
 

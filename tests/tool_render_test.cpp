@@ -29,7 +29,7 @@ class ToolRender : public ToolDrawingTest {
     if (std::ranges::find(more, "--light") == more.end()) arguments.insert(arguments.end(), {"--light", axes_});
     arguments.insert(arguments.end(), more.begin(), more.end());
     run(arguments);
-    return load_image(folder_ / "draw.exr");
+    return load_image(folder_ / "draw.exr").image;
   }
 
   const std::string axes_ = path("axes.exr");

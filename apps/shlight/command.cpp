@@ -22,7 +22,9 @@ const char* const kModelHelp = "Model or scene (.x .obj .ply .stl .off .gltf .gl
 void add_light_options(CLI::App& command, LoadLightParams& params) {
   std::map<std::string, Layout> layouts;
   for (const Layout layout : all_layouts()) layouts.emplace(layout_name(layout), layout);
-  command.add_option("--layout", params.layout, "Layout of the picture; told from its shape if not given")
+  command
+      .add_option("--layout", params.layout,
+                  "Layout of the picture; if not given, as the file states it, else told from its shape")
       ->transform(CLI::CheckedTransformer(layouts).description(""))
       ->type_name("lat-long|angular-map");
   command.add_option("--max-pixels", params.image.max_pixels, "Refuse pictures with more pixels")
@@ -44,6 +46,7 @@ LoadedLight load_light_aloud(const std::string& light, const LoadLightParams& pa
   const LightInfo& info = loaded.info;
   if (info.layout && !params.layout)
     spdlog::info("{}: {} x {} pixels, taken as {}", info.name, info.width, info.height, layout_name(*info.layout));
+  for (const std::string& warning : info.warnings) spdlog::warn("{}: {}", info.name, warning);
   if (!info.pixels.clean()) spdlog::warn("{}: {}", info.name, describe(info.pixels));
   return loaded;
 }

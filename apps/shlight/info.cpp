@@ -48,6 +48,7 @@ ordered_json info_of(const LoadedLight& loaded) {
     json["nan"] = info.pixels.nan;
     json["inf"] = info.pixels.inf;
     json["negative"] = info.pixels.negative;
+    json["warnings"] = info.warnings;
   }
   if (info.bands > 0) json["bands"] = info.bands;
   // L00 tells the mean radiance; degree 1, of its luminance, where most of the light comes from.

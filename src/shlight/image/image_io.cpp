@@ -97,33 +97,37 @@ void read_pixels(const Source& source, OpenPicture& picture, int first_channel, 
     throw malformed(source, picture.input->geterror());
 }
 
-void decode_float(const Source& source, const LoadImageParams& params, FencedBytes& out) {
+LoadedImage decode_float(const Source& source, const LoadImageParams& params) {
   without_threads();
   OpenPicture picture = open_picture(source, params);
   const OIIO::ImageSpec& spec = picture.spec;
-  const std::size_t pixels = spec.image_pixels();
-  const int size[2] = {spec.width, spec.height};
-  const auto bytes = out.resize(sizeof size + 3 * pixels * sizeof(float));
-  std::memcpy(bytes.data(), size, sizeof size);
-  const std::span<float> rgb(reinterpret_cast<float*>(bytes.data() + sizeof size), 3 * pixels);
+  LoadedImage loaded{Image(spec.width, spec.height), {}, {}};
+  const std::span<float> rgb = loaded.image.values;
 
   const auto [r, g, b] = colour_channels(spec);
   if (g == r + 1 && b == r + 2) {
     read_pixels(source, picture, r, r + 3, OIIO::TypeFloat, rgb);
   } else {
     const std::size_t channels = static_cast<std::size_t>(spec.nchannels);
-    std::vector<float> all(channels * pixels);
+    std::vector<float> all(channels * loaded.image.num_pixels());
     read_pixels(source, picture, 0, spec.nchannels, OIIO::TypeFloat, std::span(all));
-    for (std::size_t i = 0; i < pixels; ++i) {
+    for (std::size_t i = 0; i < loaded.image.num_pixels(); ++i) {
       const float* pixel = all.data() + i * channels;
       rgb[3 * i] = pixel[r], rgb[3 * i + 1] = pixel[g], rgb[3 * i + 2] = pixel[b];
     }
   }
   if (!spec.format.is_floating_point())
     for (float& value : rgb) value = linear_from_srgb(value);
+  return loaded;
 }
 
-void decode_bytes(const Source& source, const LoadImageParams& params, FencedBytes& out) {
+struct LoadedImage8 {
+  Image8 image;
+  std::optional<Layout> layout;
+  std::vector<std::string> warnings;
+};
+
+LoadedImage8 decode_bytes(const Source& source, const LoadImageParams& params) {
   without_threads();
   OpenPicture picture = open_picture(source, params);
   const OIIO::ImageSpec& spec = picture.spec;
@@ -131,10 +135,9 @@ void decode_bytes(const Source& source, const LoadImageParams& params, FencedByt
   std::vector<unsigned char> all(channels * pixels);
   read_pixels(source, picture, 0, spec.nchannels, OIIO::TypeUInt8, std::span(all));
 
-  const int size[2] = {spec.width, spec.height};
-  const auto bytes = out.resize(sizeof size + 4 * pixels);
-  std::memcpy(bytes.data(), size, sizeof size);
-  auto* rgba = reinterpret_cast<unsigned char*>(bytes.data() + sizeof size);
+  LoadedImage8 loaded;
+  loaded.image = {spec.width, spec.height, std::vector<unsigned char>(4 * pixels)};
+  unsigned char* rgba = loaded.image.values.data();
   const auto [r, g, b] = colour_channels(spec);
   const int alpha = spec.alpha_channel;
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -142,11 +145,63 @@ void decode_bytes(const Source& source, const LoadImageParams& params, FencedByt
     rgba[4 * i] = pixel[r], rgba[4 * i + 1] = pixel[g], rgba[4 * i + 2] = pixel[b];
     rgba[4 * i + 3] = alpha >= 0 ? pixel[alpha] : 255;
   }
+  return loaded;
 }
 
-// Runs a decoder behind the fence and gives back the size and the values it wrote.
-template <class Result, class Decode>
-Result load_fenced(const Source& source, const LoadImageParams& params, Decode decode) {
+// What crosses the fence: this, the values, and the warnings, each ended by a line feed.
+struct FencedHeader {
+  int width = 0, height = 0;
+  int layout = -1;  // none
+};
+
+template <class Loaded>
+void write_fenced(const Loaded& loaded, FencedBytes& out) {
+  const FencedHeader header = {loaded.image.width, loaded.image.height,
+                               loaded.layout ? static_cast<int>(*loaded.layout) : -1};
+  std::string warnings;
+  for (const std::string& warning : loaded.warnings) warnings += warning + '\n';
+  const auto values = std::as_bytes(std::span(loaded.image.values)), words = std::as_bytes(std::span(warnings));
+  std::byte* to = out.resize(sizeof header + values.size() + words.size()).data();
+  std::memcpy(to, &header, sizeof header);
+  std::memcpy(to + sizeof header, values.data(), values.size());
+  std::copy(words.begin(), words.end(), to + sizeof header + values.size());
+}
+
+// A reader that a hostile file has got hold of can write anything: the size and the values must agree.
+template <class Loaded>
+Loaded read_fenced(const Source& source, std::span<const std::byte> bytes) {
+  using Value = typename decltype(Loaded{}.image.values)::value_type;
+  constexpr std::size_t kPixelBytes = (std::is_same_v<Value, float> ? 3 : 4) * sizeof(Value);
+  FencedHeader header;
+  if (bytes.size() < sizeof header) throw malformed(source, "");
+  std::memcpy(&header, bytes.data(), sizeof header);
+  bytes = bytes.subspan(sizeof header);
+  if (header.width <= 0 || header.height <= 0 || header.layout < -1 ||
+      header.layout > static_cast<int>(Layout::kOpenExrCube) ||
+      bytes.size() / kPixelBytes / static_cast<std::size_t>(header.width) < static_cast<std::size_t>(header.height))
+    throw malformed(source, "");
+
+  Loaded loaded;
+  loaded.image.width = header.width, loaded.image.height = header.height;
+  if (header.layout >= 0) loaded.layout = static_cast<Layout>(header.layout);
+  const std::size_t value_bytes =
+      kPixelBytes * static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height);
+  const auto* values = reinterpret_cast<const Value*>(bytes.data());
+  loaded.image.values.assign(values, values + value_bytes / sizeof(Value));
+  bytes = bytes.subspan(value_bytes);
+  while (!bytes.empty()) {
+    const auto end = std::find(bytes.begin(), bytes.end(), std::byte{'\n'});
+    const auto length = static_cast<std::size_t>(end - bytes.begin());
+    loaded.warnings.emplace_back(reinterpret_cast<const char*>(bytes.data()), length);
+    bytes = bytes.subspan(std::min(length + 1, bytes.size()));
+  }
+  return loaded;
+}
+
+// Runs a decoder behind the fence.
+template <class Loaded>
+Loaded load_fenced(const Source& source, const LoadImageParams& params,
+                   Loaded (*decode)(const Source&, const LoadImageParams&)) {
   if (source.bytes.empty() && !std::filesystem::is_regular_file(source.name)) {
     const bool exists = std::filesystem::exists(source.name);
     throw Error(source.name, exists ? "is not a regular file" : "no such file", kAcceptedPictures);
@@ -154,23 +209,8 @@ Result load_fenced(const Source& source, const LoadImageParams& params, Decode d
   const std::uintmax_t file_bytes =
       source.bytes.empty() ? std::filesystem::file_size(source.name) : source.bytes.size();
   const FencedBytes fenced = run_fenced(source.name, kAcceptedPictures, limits_for_file(params.fence, file_bytes),
-                                        [&](FencedBytes& out) { decode(source, params, out); });
-  // A reader that a hostile file has got hold of can write anything: its size and its values must agree.
-  Result result;
-  constexpr std::size_t kChannels = std::is_same_v<Result, Image> ? 3 : 4;
-  const auto bytes = fenced.bytes();
-  int size[2] = {};
-  if (bytes.size() >= sizeof size) std::memcpy(size, bytes.data(), sizeof size);
-  const std::size_t value_bytes = kChannels * sizeof(result.values[0]);
-  if (size[0] <= 0 || size[1] <= 0 ||
-      (bytes.size() - sizeof size) / value_bytes !=
-          static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]))
-    throw malformed(source, "");
-  result.width = size[0], result.height = size[1];
-  const auto* values =
-      reinterpret_cast<const typename decltype(result.values)::value_type*>(bytes.data() + sizeof size);
-  result.values.assign(values, values + (bytes.size() - sizeof size) / sizeof *values);
-  return result;
+                                        [&](FencedBytes& out) { write_fenced(decode(source, params), out); });
+  return read_fenced<Loaded>(source, fenced.bytes());
 }
 
 void encode(const std::filesystem::path& path, OIIO::ImageSpec spec, OIIO::TypeDesc type, const void* values,
@@ -190,17 +230,17 @@ void encode(const std::filesystem::path& path, OIIO::ImageSpec spec, OIIO::TypeD
 
 }  // namespace
 
-Image load_image(const std::filesystem::path& path, const LoadImageParams& params) {
-  return load_fenced<Image>({path.string(), {}}, params, decode_float);
+LoadedImage load_image(const std::filesystem::path& path, const LoadImageParams& params) {
+  return load_fenced<LoadedImage>({path.string(), {}}, params, decode_float);
 }
 
 Image8 load_image8(const std::filesystem::path& path, const LoadImageParams& params) {
-  return load_fenced<Image8>({path.string(), {}}, params, decode_bytes);
+  return load_fenced<LoadedImage8>({path.string(), {}}, params, decode_bytes).image;
 }
 
 Image8 load_image8(std::span<const std::byte> bytes, const std::string& name, const LoadImageParams& params) {
   if (bytes.empty()) throw Error(name, "is empty", kAcceptedPictures);
-  return load_fenced<Image8>({name, bytes}, params, decode_bytes);
+  return load_fenced<LoadedImage8>({name, bytes}, params, decode_bytes).image;
 }
 
 void save_image(const std::filesystem::path& path, const Image& image) {

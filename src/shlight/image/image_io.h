@@ -3,11 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "shlight/core/fence.h"
 #include "shlight/image/image.h"
+#include "shlight/image/layout.h"
 
 namespace shlight {
 
@@ -18,11 +21,18 @@ struct LoadImageParams {
   FenceLimits fence;                        // pictures are decoded in a process of their own
 };
 
+// A picture and what else its file tells.
+struct LoadedImage {
+  Image image;
+  std::optional<Layout> layout;       // where the file states one, not where its shape suggests it
+  std::vector<std::string> warnings;  // a line each: what was odd, and what was made of it
+};
+
 // Reads a picture of any format that OpenImageIO knows into linear Rec. 709. Float and half-float formats are taken to
 // be linear, RGBE decodes m · 2^(e-136), formats of integers are taken to be sRGB. A picture of one channel is grey;
 // alpha is left out. Values are as the file has them, NaN, infinite and negative ones too: see pixel_report.h. Throws
 // Error.
-Image load_image(const std::filesystem::path& path, const LoadImageParams& params = {});
+LoadedImage load_image(const std::filesystem::path& path, const LoadImageParams& params = {});
 
 // Reads a picture as eight-bit sRGB with alpha, from a file or from the bytes of one. `name` is used in errors and, by
 // its ending, to tell the format where the bytes do not. Throws Error.

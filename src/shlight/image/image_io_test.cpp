@@ -34,7 +34,7 @@ TEST(ImageIo, ExrRoundTrip) {
   const TemporaryFolder folder;
   const Image image = some_image();
   save_image(folder / "a.exr", image);
-  const Image back = load_image(folder / "a.exr");
+  const Image back = load_image(folder / "a.exr").image;
   EXPECT_EQ(back.width, 5);
   EXPECT_EQ(back.height, 3);
   EXPECT_EQ(back.values, image.values);  // all are exact in half
@@ -45,7 +45,7 @@ TEST(ImageIo, ExrKeepsASunAndWhatIsNotANumber) {
   Image image = some_image();
   image.set_rgb(1, 1, {1e6, NAN, std::numeric_limits<float>::infinity()});
   save_image(folder / "a.exr", image);
-  const Image back = load_image(folder / "a.exr");
+  const Image back = load_image(folder / "a.exr").image;
   EXPECT_EQ(back.pixel(1, 1)[0], 1e6f);
   EXPECT_TRUE(std::isnan(back.pixel(1, 1)[1]));
   EXPECT_TRUE(std::isinf(back.pixel(1, 1)[2]));
@@ -56,7 +56,7 @@ TEST(ImageIo, RgbeIsMantissaTimesTwoToTheExponentMinus136) {
   std::string file = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
   for (const int byte : {128, 64, 1, 129, 255, 0, 3, 137}) file += static_cast<char>(byte);
   write_file(folder / "a.hdr", file);
-  const Image image = load_image(folder / "a.hdr");
+  const Image image = load_image(folder / "a.hdr").image;
   ASSERT_EQ(image.values.size(), 6u);
   EXPECT_EQ(image.rgb(0, 0), (Rgb{1, 0.5, 1.0 / 128}));
   EXPECT_EQ(image.rgb(1, 0), (Rgb{510, 0, 6}));
@@ -67,7 +67,7 @@ TEST(ImageIo, PngRoundTripAndLinearisation) {
   Image8 image{2, 1, {0, 128, 255, 255, 10, 20, 30, 128}};
   save_image8(folder / "a.png", image);
   EXPECT_EQ(load_image8(folder / "a.png").values, image.values);
-  const Image linear = load_image(folder / "a.png");
+  const Image linear = load_image(folder / "a.png").image;
   EXPECT_EQ(linear.pixel(0, 0)[0], 0);
   EXPECT_NEAR(linear.pixel(0, 0)[1], 0.2158605, 1e-6);
   EXPECT_EQ(linear.pixel(0, 0)[2], 1);
@@ -128,7 +128,7 @@ TEST(ImageIo, DamagedPicturesAreRefusedCleanly) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(data) / "bad/image")) {
     if (!entry.is_regular_file()) continue;
     try {
-      const Image image = load_image(entry.path(), params);
+      const Image image = load_image(entry.path(), params).image;
       EXPECT_EQ(image.values.size(), 3 * image.num_pixels());
       ++read;
     } catch (const Error& error) {

@@ -31,7 +31,7 @@ class Light {
 };
 
 struct LoadLightParams {
-  std::optional<Layout> layout;  // of pictures; nothing: told from the picture's shape
+  std::optional<Layout> layout;  // of pictures; nothing: as the file states it, else told from the picture's shape
   LoadImageParams image;
 };
 
@@ -43,7 +43,8 @@ struct LightInfo {
   std::optional<Layout> layout;  // of an image, as are these
   int width = 0, height = 0;
   PixelReport pixels;
-  int bands = 0;  // of coefficients
+  std::vector<std::string> warnings;  // what was odd about the file, a line each
+  int bands = 0;                      // of coefficients
 };
 
 struct LoadedLight {

@@ -18,6 +18,11 @@ std::string layout_names() {
   return names;
 }
 
+// Whether pictures of this layout can be taken yet.
+bool is_known(Layout layout) {
+  return std::ranges::count(all_layouts(), layout) > 0;
+}
+
 // Corners outside of an angular map's circle hold no light, whatever was painted there.
 void clear_unused(Environment& environment) {
   if (environment.layout != Layout::kAngularMap) return;
@@ -30,16 +35,25 @@ void clear_unused(Environment& environment) {
 }
 
 LoadedLight load_image_light(const std::string& path, const LoadLightParams& params) {
-  Environment environment{load_image(path, params.image), Layout::kLatLong};
+  LoadedImage loaded = load_image(path, params.image);
+  Environment environment{std::move(loaded.image), Layout::kLatLong};
   const int width = environment.image.width, height = environment.image.height;
-  const auto layout = params.layout ? params.layout : layout_from_shape(width, height);
+  auto layout = params.layout;
+  if (!layout && loaded.layout && is_known(*loaded.layout)) layout = loaded.layout;
+  if (!layout) layout = layout_from_shape(width, height);
   if (!layout)
     throw Error(path, fmt::format("{} x {} pixels tell no layout", width, height),
                 "2:1 for lat-long, 1:1 for angular-map, or a layout named with --layout: " + layout_names());
   environment.layout = *layout;
   clear_unused(environment);
 
-  LightInfo info{LightInfo::Kind::kImage, path, layout, width, height, report_pixels(environment.image), 0};
+  LightInfo info;
+  info.kind = LightInfo::Kind::kImage;
+  info.name = path;
+  info.layout = layout;
+  info.width = width, info.height = height;
+  info.pixels = report_pixels(environment.image);
+  info.warnings = std::move(loaded.warnings);
   if (info.pixels.nan + info.pixels.inf > 0) repair_pixels(environment.image);
   return {std::make_unique<ImageLight>(std::move(environment)), std::move(info)};
 }
