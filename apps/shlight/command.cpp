@@ -26,7 +26,7 @@ void add_light_options(CLI::App& command, LoadLightParams& params) {
       .add_option("--layout", params.layout,
                   "Layout of the picture; if not given, as the file states it, else told from its shape")
       ->transform(CLI::CheckedTransformer(layouts).description(""))
-      ->type_name("lat-long|angular-map");
+      ->type_name("LAYOUT");
   command.add_option("--max-pixels", params.image.max_pixels, "Refuse pictures with more pixels")
       ->capture_default_str()
       ->check(CLI::PositiveNumber.description(""));

@@ -1,107 +1,132 @@
 #include "shlight/image/layout.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <numbers>
-#include <vector>
-
-#include "shlight/sh/project.h"
 
 namespace shlight {
 namespace {
 
 using std::numbers::pi;
 
-struct LayoutName {
+// --- the faces of cubes
+
+constexpr Vec3d kX = {1, 0, 0}, kY = {0, 1, 0}, kZ = {0, 0, 1};
+
+// The faces as every layout but OpenEXR's shows them, in the sequence of strips and files.
+constexpr CubeFace kRight = {0, 0, kX, kZ, -kY};
+constexpr CubeFace kLeft = {0, 0, -kX, -kZ, -kY};
+constexpr CubeFace kTop = {0, 0, kY, kX, -kZ};
+constexpr CubeFace kBottom = {0, 0, -kY, kX, kZ};
+constexpr CubeFace kFront = {0, 0, -kZ, kX, -kY};
+constexpr CubeFace kBack = {0, 0, kZ, -kX, -kY};
+
+constexpr CubeFace at(int column, int row, CubeFace face) {
+  return {column, row, face.forward, face.right, face.down};
+}
+constexpr CubeFace upside_down(CubeFace face) {
+  return {face.column, face.row, face.forward, -face.right, -face.down};
+}
+// Half a turn about Y.
+constexpr CubeFace half_turned(CubeFace face) {
+  const auto turn = [](Vec3d a) { return Vec3d{-a.x, a.y, -a.z}; };
+  return {face.column, face.row, turn(face.forward), turn(face.right), turn(face.down)};
+}
+
+using SixFaces = std::array<CubeFace, 6>;
+constexpr SixFaces kVerticalStrip = {at(0, 0, kRight),  at(0, 1, kLeft),  at(0, 2, kTop),
+                                     at(0, 3, kBottom), at(0, 4, kFront), at(0, 5, kBack)};
+constexpr SixFaces kHorizontalStrip = {at(0, 0, kRight),  at(1, 0, kLeft),  at(2, 0, kTop),
+                                       at(3, 0, kBottom), at(4, 0, kFront), at(5, 0, kBack)};
+constexpr SixFaces kVerticalCross = {at(2, 1, kRight),  at(0, 1, kLeft),  at(1, 0, kTop),
+                                     at(1, 2, kBottom), at(1, 1, kFront), at(1, 3, upside_down(kBack))};
+constexpr SixFaces kHorizontalCross = {at(2, 1, kRight),  at(0, 1, kLeft),  at(1, 0, kTop),
+                                       at(1, 2, kBottom), at(1, 1, kFront), at(3, 1, kBack)};
+// OpenEXR's faces are those of a right-handed frame.
+constexpr SixFaces kOpenExrCube = {at(0, 0, half_turned(kRight)), at(0, 1, half_turned(kLeft)),
+                                   at(0, 2, half_turned(kTop)),   at(0, 3, half_turned(kBottom)),
+                                   at(0, 4, half_turned(kBack)),  at(0, 5, half_turned(kFront))};
+
+// --- what sets the layouts apart
+
+struct Traits {
   Layout layout;
   std::string_view name;
+  std::span<const CubeFace> faces;
+  FaceGrid grid;
+  std::string_view shape;
+  double sizes_a_horizon;  // `size` over the pixels round the horizon
 };
-constexpr LayoutName kNames[] = {{Layout::kLatLong, "lat-long"}, {Layout::kAngularMap, "angular-map"}};
-constexpr Layout kAll[] = {Layout::kLatLong, Layout::kAngularMap};
+constexpr Traits kTraits[] = {
+    {Layout::kLatLong, "lat-long", {}, {}, "2:1", 1},
+    {Layout::kAngularMap, "angular-map", {}, {}, "1:1", 1},
+    {Layout::kMirrorBall, "mirror-ball", {}, {}, "1:1", 1},
+    {Layout::kCube, "cube", kVerticalStrip, {1, 6}, "six square files", 0.25},
+    {Layout::kVerticalCross, "vertical-cross", kVerticalCross, {3, 4}, "3:4", 0.25},
+    {Layout::kHorizontalCross, "horizontal-cross", kHorizontalCross, {4, 3}, "4:3", 0.25},
+    {Layout::kHorizontalStrip, "horizontal-strip", kHorizontalStrip, {6, 1}, "6:1", 0.25},
+    {Layout::kVerticalStrip, "vertical-strip", kVerticalStrip, {1, 6}, "1:6", 0.25},
+    {Layout::kOctahedral, "octahedral", {}, {}, "1:1", 0.5},
+    {Layout::kOpenExrLatLong, "openexr-lat-long", {}, {}, "2:1", 1},
+    {Layout::kOpenExrCube, "openexr-cube", kOpenExrCube, {1, 6}, "1:6", 0.25},
+};
 
-// With radius r in [0, 1] the angular map has dω = sin θ dθ dφ = π sin(πr)/r · dx dy for x, y in [−1, 1].
-double angular_map_density(double x, double y) {
+const Traits& traits(Layout layout) {
+  const Traits& found = kTraits[static_cast<std::size_t>(layout)];
+  assert(found.layout == layout);
+  return found;
+}
+
+constexpr auto kAll = [] {
+  std::array<Layout, std::size(kTraits)> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = kTraits[i].layout;
+  return all;
+}();
+
+// --- discs: (x, y) in the unit circle, x right, y up
+
+Vec3d direction_in_angular_map(double x, double y) {
   const double r = std::hypot(x, y);
-  if (r >= 1) return 0;
-  return r < 1e-8 ? pi * pi : pi * std::sin(pi * r) / r;
+  const double scale = r < 1e-12 ? pi : std::sin(pi * r) / r;
+  return {scale * x, scale * y, -std::cos(pi * r)};
 }
 
-// Nodes over [y0, y1] x [x0, x1] of the square [−1, 1]², cut off at the circle. Rows of Gauss nodes, each over the part
-// of the row inside; a pixel that the circle enters or leaves through its top or bottom is cut there first, so that
-// every piece is smooth up to the square root at the circle's own top and bottom, where the density is zero.
-void angular_map_nodes(double x0, double x1, double y0, double y1, std::vector<WeightedDirection>& nodes) {
-  const double near_x = x0 * x1 < 0 ? 0 : std::min(std::abs(x0), std::abs(x1));
-  const double near_y = y0 * y1 < 0 ? 0 : std::min(std::abs(y0), std::abs(y1));
-  if (std::hypot(near_x, near_y) >= 1) return;
-
-  static const GaussLegendre kFine = make_gauss_legendre(6), kCoarse = make_gauss_legendre(3);
-  const GaussLegendre& rule = x1 - x0 > 1.0 / 16 ? kFine : kCoarse;
-  const auto add_rows = [&](double a, double b) {
-    for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-      const double y = a + (b - a) * 0.5 * (1 + rule.nodes[i]);
-      const double reach = std::sqrt(std::max(0.0, 1 - y * y));
-      const double left = std::clamp(x0, -reach, reach), right = std::clamp(x1, -reach, reach);
-      for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
-        const double x = left + (right - left) * 0.5 * (1 + rule.nodes[j]);
-        const double weight = rule.weights[i] * rule.weights[j] * 0.25 * (b - a) * (right - left);
-        if (const auto direction = direction_at(Layout::kAngularMap, {0.5 + 0.5 * x, 0.5 - 0.5 * y}))
-          nodes.push_back({*direction, weight * angular_map_density(x, y)});
-      }
-    }
-  };
-  const double far = std::hypot(std::max(std::abs(x0), std::abs(x1)), std::max(std::abs(y0), std::abs(y1)));
-  if (far <= 1) return add_rows(y0, y1);
-
-  // Heights at which the circle crosses the pixel's left and right side, and where it ends.
-  std::vector<double> cuts = {y0, y1};
-  for (const double x : {x0, x1})
-    if (std::abs(x) < 1)
-      for (const double y : {-std::sqrt(1 - x * x), std::sqrt(1 - x * x)})
-        if (y > y0 && y < y1) cuts.push_back(y);
-  for (const double y : {-1.0, 1.0})
-    if (y > y0 && y < y1) cuts.push_back(y);
-  std::sort(cuts.begin(), cuts.end());
-  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) add_rows(cuts[i], cuts[i + 1]);
+// sin θ = 2 r √(1−r²) and cos θ = 1 − 2r² for the angle θ = 2 asin r.
+Vec3d direction_in_mirror_ball(double x, double y) {
+  const double r2 = x * x + y * y, scale = 2 * std::sqrt(std::max(0.0, 1 - r2));
+  return {scale * x, scale * y, 2 * r2 - 1};
 }
 
-// Gauss nodes in both angles, over which a lat-long pixel is a rectangle with the density sin θ.
-void lat_long_nodes(int width, int height, int x, int y, std::vector<WeightedDirection>& nodes) {
-  static const GaussLegendre kFine = make_gauss_legendre(6), kCoarse = make_gauss_legendre(3);
-  const GaussLegendre& rule = height < 64 ? kFine : kCoarse;
-  for (std::size_t i = 0; i < rule.nodes.size(); ++i)
-    for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
-      const double v = (y + 0.5 * (1 + rule.nodes[i])) / height, u = (x + 0.5 * (1 + rule.nodes[j])) / width;
-      const double area = 2 * pi / width * pi / height;
-      nodes.push_back({*direction_at(Layout::kLatLong, {u, v}),
-                       0.25 * rule.weights[i] * rule.weights[j] * area * std::sin(pi * v)});
-    }
+// --- octahedral: (x, y) in [−1, 1]²; beyond the diamond |x| + |y| = 1 the back's four faces are folded out.
+
+Vec3d direction_in_octahedron(double x, double y) {
+  const double beyond = std::abs(x) + std::abs(y) - 1;
+  Vec3d p = {x, y, beyond};
+  if (beyond > 0) p = {std::copysign(1 - std::abs(y), x), std::copysign(1 - std::abs(x), y), beyond};
+  return 1 / std::sqrt(dot(p, p)) * p;
 }
 
-// The pixel index of a coordinate in [0, 1]; 1 itself belongs to the last pixel.
-int pixel_index(double coordinate, int size) {
-  return std::clamp(static_cast<int>(coordinate * size), 0, size - 1);
-}
-
-// The pixel (x, y) of a lat-long map continued over its borders: round about, and over a pole to the other side.
-Rgb wrapped_lat_long(const Image& image, int x, int y) {
-  if (y < 0 || y >= image.height) {
-    y = y < 0 ? -1 - y : 2 * image.height - 1 - y;
-    x += image.width / 2;
+ImagePoint point_in_octahedron(Vec3d d) {
+  const double sum = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+  double x = d.x / sum, y = d.y / sum;
+  if (d.z > 0) {
+    const double folded = std::copysign(1 - std::abs(y), x);
+    y = std::copysign(1 - std::abs(x), y);
+    x = folded;
   }
-  return image.rgb((x % image.width + image.width) % image.width, std::clamp(y, 0, image.height - 1));
+  return {0.5 + 0.5 * x, 0.5 - 0.5 * y};
 }
 
 }  // namespace
 
 std::string_view layout_name(Layout layout) {
-  for (const LayoutName& entry : kNames)
-    if (entry.layout == layout) return entry.name;
-  return "";
+  return traits(layout).name;
 }
 
 std::optional<Layout> layout_from_name(std::string_view name) {
-  for (const LayoutName& entry : kNames)
+  for (const Traits& entry : kTraits)
     if (entry.name == name) return entry.layout;
   return std::nullopt;
 }
@@ -110,84 +135,92 @@ std::span<const Layout> all_layouts() {
   return kAll;
 }
 
-std::optional<Layout> layout_from_shape(int width, int height) {
-  if (width == 2 * height) return Layout::kLatLong;
-  if (width == height) return Layout::kAngularMap;
-  return std::nullopt;
+std::span<const CubeFace> cube_faces(Layout layout) {
+  return traits(layout).faces;
+}
+
+FaceGrid face_grid(Layout layout) {
+  return traits(layout).grid;
+}
+
+bool is_lat_long(Layout layout) {
+  return layout == Layout::kLatLong || layout == Layout::kOpenExrLatLong;
+}
+
+bool centres_on_border(Layout layout) {
+  return layout == Layout::kOpenExrLatLong || layout == Layout::kOpenExrCube;
+}
+
+PictureSize picture_size(Layout layout, int size) {
+  if (is_lat_long(layout)) return {size, std::max(1, size / 2)};
+  const auto [columns, rows] = face_grid(layout);
+  return {columns * size, rows * size};
+}
+
+int size_from_horizon(Layout layout, int horizon) {
+  return std::max(1, static_cast<int>(std::lround(horizon * traits(layout).sizes_a_horizon)));
+}
+
+int horizon_from_size(Layout layout, int size) {
+  return static_cast<int>(std::lround(size / traits(layout).sizes_a_horizon));
+}
+
+bool fits(Layout layout, PictureSize size) {
+  if (size.width < 1 || size.height < 1) return false;
+  if (is_lat_long(layout)) return true;
+  const auto [columns, rows] = face_grid(layout);
+  return size.width % columns == 0 && size.height % rows == 0 && size.width / columns == size.height / rows;
+}
+
+std::string_view shape_name(Layout layout) {
+  return traits(layout).shape;
 }
 
 std::optional<Vec3d> direction_at(Layout layout, ImagePoint point) {
-  if (layout == Layout::kLatLong) {
+  if (is_lat_long(layout)) {
     const double phi = 2 * pi * (point.u - 0.5), theta = pi * point.v;
     return Vec3d{std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
   }
-  const double x = 2 * point.u - 1, y = 1 - 2 * point.v, r = std::hypot(x, y);
-  if (r > 1) return std::nullopt;
-  const double scale = r < 1e-12 ? pi : std::sin(pi * r) / r;
-  return Vec3d{scale * x, scale * y, -std::cos(pi * r)};
+  if (const auto faces = cube_faces(layout); !faces.empty()) {
+    const auto [columns, rows] = face_grid(layout);
+    const double u = point.u * columns, v = point.v * rows;
+    const int column = std::clamp(static_cast<int>(u), 0, columns - 1),
+              row = std::clamp(static_cast<int>(v), 0, rows - 1);
+    for (const CubeFace& face : faces)
+      if (face.column == column && face.row == row) {
+        const double s = 2 * (u - column) - 1, t = 2 * (v - row) - 1;
+        return 1 / std::sqrt(1 + s * s + t * t) * (face.forward + s * face.right + t * face.down);
+      }
+    return std::nullopt;
+  }
+  const double x = 2 * point.u - 1, y = 1 - 2 * point.v;
+  if (layout == Layout::kOctahedral) return direction_in_octahedron(x, y);
+  if (x * x + y * y > 1) return std::nullopt;
+  return layout == Layout::kAngularMap ? direction_in_angular_map(x, y) : direction_in_mirror_ball(x, y);
 }
 
 ImagePoint point_of(Layout layout, Vec3d d) {
-  if (layout == Layout::kLatLong) {
+  if (is_lat_long(layout)) {
     // atan2 twice: acos loses half of its digits toward the poles.
     return {0.5 + std::atan2(d.x, -d.z) / (2 * pi), std::atan2(std::hypot(d.x, d.z), d.y) / pi};
   }
-  const double s = std::hypot(d.x, d.y);
-  const double r = std::atan2(s, -d.z) / pi;
-  if (s == 0) return {0.5 + 0.5 * r, 0.5};
-  return {0.5 + 0.5 * r * d.x / s, 0.5 - 0.5 * r * d.y / s};
-}
-
-void pixel_nodes(Layout layout, int width, int height, int x, int y, std::vector<WeightedDirection>& nodes) {
-  assert(x >= 0 && x < width && y >= 0 && y < height);
-  nodes.clear();
-  if (layout == Layout::kLatLong) return lat_long_nodes(width, height, x, y, nodes);
-  angular_map_nodes(2.0 * x / width - 1, 2.0 * (x + 1) / width - 1, 1 - 2.0 * (y + 1) / height, 1 - 2.0 * y / height,
-                    nodes);
-}
-
-double pixel_solid_angle(Layout layout, int width, int height, int x, int y) {
-  assert(x >= 0 && x < width && y >= 0 && y < height);
-  if (layout == Layout::kLatLong) {
-    // cos θ0 − cos θ1 as a product, which keeps its digits at the poles.
-    const double middle = pi * (y + 0.5) / height, half = pi / (2.0 * height);
-    return 2 * pi / width * 2 * std::sin(middle) * std::sin(half);
+  if (const auto faces = cube_faces(layout); !faces.empty()) {
+    const auto face = std::max_element(faces.begin(), faces.end(), [&](const CubeFace& a, const CubeFace& b) {
+      return dot(d, a.forward) < dot(d, b.forward);
+    });
+    const double depth = dot(d, face->forward);
+    // Its edge would be the next face's in the picture.
+    constexpr double kInside = 1 - 1e-12;
+    const auto [columns, rows] = face_grid(layout);
+    const double s = std::clamp(dot(d, face->right) / depth, -kInside, kInside);
+    const double t = std::clamp(dot(d, face->down) / depth, -kInside, kInside);
+    return {(face->column + 0.5 + 0.5 * s) / columns, (face->row + 0.5 + 0.5 * t) / rows};
   }
-  std::vector<WeightedDirection> nodes;
-  pixel_nodes(layout, width, height, x, y, nodes);
-  double sum = 0;
-  for (const WeightedDirection& node : nodes) sum += node.solid_angle;
-  return sum;
-}
-
-Rgb eval_nearest(const Environment& environment, Vec3d direction) {
-  const Image& image = environment.image;
-  const ImagePoint point = point_of(environment.layout, direction);
-  return image.rgb(pixel_index(point.u, image.width), pixel_index(point.v, image.height));
-}
-
-Rgb eval_bilinear(const Environment& environment, Vec3d direction) {
-  const Image& image = environment.image;
-  const ImagePoint point = point_of(environment.layout, direction);
-  const double x = point.u * image.width - 0.5, y = point.v * image.height - 0.5;
-  const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-  Rgb sum;
-  double weights = 0;
-  for (const int dy : {0, 1})
-    for (const int dx : {0, 1}) {
-      const double weight = std::abs(1 - dx - (x - x0)) * std::abs(1 - dy - (y - y0));
-      if (environment.layout == Layout::kLatLong) {
-        sum += weight * wrapped_lat_long(image, x0 + dx, y0 + dy);
-        weights += weight;
-        continue;
-      }
-      // Pixels of the angular map whose centre lies outside of the circle hold nothing.
-      const int px = std::clamp(x0 + dx, 0, image.width - 1), py = std::clamp(y0 + dy, 0, image.height - 1);
-      if (!direction_at(Layout::kAngularMap, {(px + 0.5) / image.width, (py + 0.5) / image.height})) continue;
-      sum += weight * image.rgb(px, py);
-      weights += weight;
-    }
-  return weights > 0 ? 1 / weights * sum : eval_nearest(environment, direction);
+  if (layout == Layout::kOctahedral) return point_in_octahedron(d);
+  const double sine = std::hypot(d.x, d.y), theta = std::atan2(sine, -d.z);
+  const double r = layout == Layout::kAngularMap ? theta / pi : std::sin(theta / 2);
+  if (sine == 0) return {0.5 + 0.5 * r, 0.5};
+  return {0.5 + 0.5 * r * d.x / sine, 0.5 - 0.5 * r * d.y / sine};
 }
 
 }  // namespace shlight

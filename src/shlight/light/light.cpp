@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "shlight/core/parallel.h"
 #include "shlight/light/project_image.h"
 #include "shlight/sh/basis.h"
 #include "shlight/sh/zonal.h"
@@ -13,58 +11,38 @@ namespace shlight {
 
 namespace {
 
-// The mean of f over a pixel of a lat-long picture, from samples x samples directions.
-template <class F>
-Rgb mean_over_pixel(const Image& image, int x, int y, int samples, F&& f) {
-  Rgb sum;
-  for (int i = 0; i < samples; ++i)
-    for (int j = 0; j < samples; ++j) {
-      const ImagePoint point = {(x + (j + 0.5) / samples) / image.width, (y + (i + 0.5) / samples) / image.height};
-      sum += f(*direction_at(Layout::kLatLong, point));
-    }
-  return 1.0 / (samples * samples) * sum;
-}
-
-template <class PixelValue>
-Image make_lat_long(int width, int threads, PixelValue&& value) {
-  Image image(width, std::max(1, width / 2));
-  parallel_for(static_cast<std::size_t>(image.height), threads, [&](std::size_t row) {
-    const int y = static_cast<int>(row);
-    for (int x = 0; x < image.width; ++x) image.set_rgb(x, y, value(image, x, y));
-  });
-  return image;
-}
-
 constexpr int kSamples = 2;       // a side, of a pixel
 constexpr int kDiscSamples = 16;  // of a pixel on a disc's edge: the sun is hardly larger than a pixel
 
-// The mean over a pixel of a disc's radiance.
-Rgb disc_over_pixel(const FunctionLight::Disc& disc, const Image& image, int x, int y) {
-  const Vec3d centre = *direction_at(Layout::kLatLong, {(x + 0.5) / image.width, (y + 0.5) / image.height});
-  const double angle = std::acos(std::clamp(dot(centre, disc.axis), -1.0, 1.0));
-  const double reach = std::numbers::pi / image.height;  // more than half of a pixel's diagonal
-  if (angle > disc.half_angle + reach) return {};
-  if (angle < disc.half_angle - reach) return disc.radiance;
-  const double edge = std::cos(disc.half_angle);
-  return mean_over_pixel(image, x, y, kDiscSamples,
-                         [&](Vec3d d) { return dot(d, disc.axis) >= edge ? disc.radiance : Rgb{}; });
+// Whether the edge of a disc may run through a pixel with these 2 x 2 nodes.
+bool is_on_edge(const FunctionLight::Disc& disc, std::span<const WeightedDirection> nodes) {
+  const auto angle = [](Vec3d a, Vec3d b) { return std::acos(std::clamp(dot(a, b), -1.0, 1.0)); };
+  double size = 0;
+  for (const WeightedDirection& node : nodes) size = std::max(size, angle(node.direction, nodes[0].direction));
+  // The nodes of a square pixel lie 0.58 of its width apart; the first has all of it within 1.4 of the diagonal.
+  return std::abs(angle(nodes[0].direction, disc.axis) - disc.half_angle) <= 1.5 * size;
 }
 
 }  // namespace
 
+Image Light::picture(const MakePictureParams& params, const Progress& progress) const {
+  return make_picture([this](Vec3d d) { return radiance(d); }, [](auto) { return kSamples; }, params, progress);
+}
+
 Image Light::lat_long(int width, int threads) const {
-  return make_lat_long(width, threads, [&](const Image& image, int x, int y) {
-    return mean_over_pixel(image, x, y, kSamples, [&](Vec3d d) { return radiance(d); });
-  });
+  return picture({Layout::kLatLong, width, threads});
 }
 
 RgbCoefficients ImageLight::project(int bands, int threads) const {
   return project_image(environment_, bands, threads);
 }
 
+Image ImageLight::picture(const MakePictureParams& params, const Progress& progress) const {
+  return resample(environment_, params, progress);
+}
+
 Image ImageLight::lat_long(int width, int threads) const {
-  if (environment_.layout == Layout::kLatLong) return environment_.image;
-  return Light::lat_long(width, threads);
+  return environment_.layout == Layout::kLatLong ? environment_.image : Light::lat_long(width, threads);
 }
 
 Rgb CoefficientLight::radiance(Vec3d direction) const {
@@ -82,12 +60,12 @@ Rgb FunctionLight::radiance(Vec3d direction) const {
   return sum;
 }
 
-Image FunctionLight::lat_long(int width, int threads) const {
-  return make_lat_long(width, threads, [&](const Image& image, int x, int y) {
-    Rgb sum = mean_over_pixel(image, x, y, kSamples, function_);
-    for (const Disc& disc : discs_) sum += disc_over_pixel(disc, image, x, y);
-    return sum;
-  });
+Image FunctionLight::picture(const MakePictureParams& params, const Progress& progress) const {
+  const auto samples = [this](std::span<const WeightedDirection> nodes) {
+    return std::ranges::any_of(discs_, [&](const Disc& disc) { return is_on_edge(disc, nodes); }) ? kDiscSamples
+                                                                                                  : kSamples;
+  };
+  return make_picture([this](Vec3d d) { return radiance(d); }, samples, params, progress);
 }
 
 RgbCoefficients FunctionLight::project(int bands, int) const {

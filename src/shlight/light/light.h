@@ -6,9 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "shlight/image/environment.h"
 #include "shlight/image/image_io.h"
-#include "shlight/image/layout.h"
 #include "shlight/image/pixel_report.h"
+#include "shlight/image/resample.h"
 #include "shlight/sh/coefficients.h"
 #include "shlight/sh/project.h"
 
@@ -25,6 +26,9 @@ class Light {
   // The coefficients of the radiance, by the most exact method that this kind of light has.
   // `threads`: 0 for all there are.
   virtual RgbCoefficients project(int bands, int threads = 0) const = 0;
+
+  // A picture of the light. Throws Cancelled where `progress` stops it.
+  virtual Image picture(const MakePictureParams& params, const Progress& progress = {}) const;
 
   // The light as a lat-long picture: its own where it is one, else of `width` x `width`/2 pixels.
   virtual Image lat_long(int width, int threads = 0) const;
@@ -63,6 +67,7 @@ class ImageLight : public Light {
   explicit ImageLight(Environment environment) : environment_(std::move(environment)) {}
   Rgb radiance(Vec3d direction) const override { return eval_nearest(environment_, direction); }
   RgbCoefficients project(int bands, int threads) const override;
+  Image picture(const MakePictureParams& params, const Progress& progress) const override;
   Image lat_long(int width, int threads) const override;
   const Environment& environment() const { return environment_; }
 
@@ -93,7 +98,7 @@ class FunctionLight : public Light {
       : function_(std::move(function)), discs_(std::move(discs)) {}
   Rgb radiance(Vec3d direction) const override;
   RgbCoefficients project(int bands, int threads) const override;
-  Image lat_long(int width, int threads) const override;
+  Image picture(const MakePictureParams& params, const Progress& progress) const override;
 
  private:
   SphereFunction function_;

@@ -9,6 +9,8 @@
 
 #include "shlight/core/error.h"
 #include "shlight/core/temporary_folder.h"
+#include "shlight/image/cube_files.h"
+#include "shlight/image/pixels.h"
 #include "shlight/light/builtin_light.h"
 #include "shlight/light/coefficient_file.h"
 #include "shlight/sh/basis.h"
@@ -17,28 +19,31 @@
 namespace shlight {
 namespace {
 
-// The axes light as an angular map.
-Image angular_map_of(const Light& light, int size) {
-  Image image(size, size);
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      // The circle's pixels whose centre lies outside of it show what is at its edge; the corners must not count.
-      const auto d = direction_at(Layout::kAngularMap, {(x + 0.5) / size, (y + 0.5) / size});
-      const bool corner = pixel_solid_angle(Layout::kAngularMap, size, size, x, y) == 0;
-      image.set_rgb(x, y, corner ? Rgb{1000, 1000, 1000} : light.radiance(d.value_or(Vec3d{0, 0, 1})));
-    }
-  return image;
-}
-
 TEST(LoadLight, TheSameLightFromEveryLayout) {
-  const TemporaryFolder folder;
   const auto axes = make_axes_light();
   const RgbCoefficients exact = axes->project(5);
-  save_image(folder / "lat-long.exr", axes->lat_long(1024));
-  save_image(folder / "angular-map.exr", angular_map_of(*axes, 1024));
-  for (const char* name : {"lat-long", "angular-map"}) {
-    const auto [light, info] = load_light((folder / (std::string(name) + ".exr")).string());
-    EXPECT_EQ(info.layout, layout_from_name(name));
+  for (const Layout layout : all_layouts()) {
+    const TemporaryFolder folder;
+    const auto size = size_from_horizon(layout, 1024);
+    Environment environment = {axes->picture({layout, size}), layout};
+    // What lies beside the light must not count.
+    const PixelQuadrature pixels(layout, environment.size(), 1);
+    for (int y = 0; y < environment.image.height; ++y)
+      for (int x = 0; x < environment.image.width; ++x)
+        if (!pixels.covers({x, y})) environment.image.set_rgb(x, y, {1000, 1000, 1000});
+    const std::string name(layout_name(layout));
+    const std::filesystem::path path = folder / (name + ".exr");
+    LoadLightParams params;
+    if (layout == Layout::kCube) {
+      const auto faces = split_cube(environment.image);
+      const CubeFiles files = cube_files_for(path);
+      for (std::size_t i = 0; i < 6; ++i) save_image(files[i], faces[i]);
+    } else {
+      save_image(path, environment.image);
+      params.layout = layout;
+    }
+    const auto [light, info] = load_light(layout == Layout::kCube ? (folder / "").string() : path.string(), params);
+    EXPECT_EQ(info.layout, layout);
     EXPECT_NEAR(info.pixels.max, 6.04, 0.01);
     const RgbCoefficients c = light->project(5);
     for (std::size_t i = 0; i < c.size(); ++i) {

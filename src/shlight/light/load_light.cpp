@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "shlight/core/error.h"
+#include "shlight/image/cube_files.h"
+#include "shlight/image/recognise_layout.h"
 #include "shlight/light/builtin_light.h"
 #include "shlight/light/coefficient_file.h"
 #include "shlight/light/formula_light.h"
@@ -12,38 +11,22 @@
 namespace shlight {
 namespace {
 
-std::string layout_names() {
-  std::string names;
-  for (const Layout layout : all_layouts()) names += (names.empty() ? "" : " or ") + std::string(layout_name(layout));
-  return names;
-}
-
-// Whether pictures of this layout can be taken yet.
-bool is_known(Layout layout) {
-  return std::ranges::count(all_layouts(), layout) > 0;
-}
-
-// Corners outside of an angular map's circle hold no light, whatever was painted there.
-void clear_unused(Environment& environment) {
-  if (environment.layout != Layout::kAngularMap) return;
-  Image& image = environment.image;
-  const auto nearest = [](int i, int size) { return std::abs(2.0 * i + 1 - size) / size - 1.0 / size; };
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      if (std::hypot(std::max(0.0, nearest(x, image.width)), std::max(0.0, nearest(y, image.height))) >= 1)
-        image.set_rgb(x, y, {});
+// A picture from a file, or from the six of a cube.
+LoadedImage load_picture(const std::string& path, const LoadLightParams& params) {
+  if (params.layout.value_or(Layout::kCube) == Layout::kCube)
+    if (const auto files = find_cube_files(path)) return load_cube_files(*files, params.image);
+  return load_image(path, params.image);
 }
 
 LoadedLight load_image_light(const std::string& path, const LoadLightParams& params) {
-  LoadedImage loaded = load_image(path, params.image);
+  LoadedImage loaded = load_picture(path, params);
   Environment environment{std::move(loaded.image), Layout::kLatLong};
   const int width = environment.image.width, height = environment.image.height;
-  auto layout = params.layout;
-  if (!layout && loaded.layout && is_known(*loaded.layout)) layout = loaded.layout;
-  if (!layout) layout = layout_from_shape(width, height);
-  if (!layout)
-    throw Error(path, fmt::format("{} x {} pixels tell no layout", width, height),
-                "2:1 for lat-long, 1:1 for angular-map, or a layout named with --layout: " + layout_names());
+  auto layout = params.layout ? params.layout : loaded.layout;
+  if (!layout) layout = recognise_layout(path, environment.image);
+  if (!fits(*layout, environment.size()))
+    throw Error(path, fmt::format("{} x {} pixels are no {}", width, height, layout_name(*layout)),
+                fmt::format("{} for that layout", shape_name(*layout)));
   environment.layout = *layout;
   clear_unused(environment);
 

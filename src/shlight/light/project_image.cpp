@@ -10,6 +10,7 @@
 
 #include "shlight/core/assert.h"
 #include "shlight/core/parallel.h"
+#include "shlight/image/pixels.h"
 #include "shlight/sh/basis.h"
 #include "shlight/sh/clones.h"
 #include "shlight/sh/project.h"
@@ -257,12 +258,14 @@ RgbCoefficients project_image(const Environment& environment, int bands, int thr
 
 RgbCoefficients project_image_by_pixels(const Environment& environment, int bands, int threads) {
   const Image& image = environment.image;
+  const PixelQuadrature pixels(environment.layout, environment.size(),
+                               nodes_a_side_for(environment.layout, environment.size(), bands));
   std::vector<RgbCoefficients> rows(static_cast<std::size_t>(image.height), RgbCoefficients(bands));
   parallel_for(rows.size(), threads, [&](std::size_t y) {
     std::vector<WeightedDirection> nodes;
     std::vector<double> basis(rows[y].size());
     for (int x = 0; x < image.width; ++x) {
-      pixel_nodes(environment.layout, image.width, image.height, x, static_cast<int>(y), nodes);
+      pixels.nodes({x, static_cast<int>(y)}, nodes);
       const Rgb radiance = image.rgb(x, static_cast<int>(y));
       for (const WeightedDirection& node : nodes) {
         eval_basis(bands, node.direction, std::span<double>(basis));

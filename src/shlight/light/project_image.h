@@ -1,6 +1,6 @@
 #pragma once
 
-#include "shlight/image/layout.h"
+#include "shlight/image/environment.h"
 #include "shlight/sh/coefficients.h"
 
 namespace shlight {
