@@ -6,18 +6,22 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstring>
+#include <fstream>
+#include <initializer_list>
 #include <memory>
 #include <type_traits>
 
 #include "shlight/core/error.h"
 #include "shlight/core/file.h"
+#include "shlight/image/picture_reader.h"
+#include "shlight/image/rgbe.h"
 
 namespace shlight {
 namespace {
 
-constexpr const char* kAcceptedPictures = "a picture such as .hdr, .exr, .png, .jpg or .tif";
 constexpr float kLargestHalf = 65504;
 
 // OpenImageIO's and OpenEXR's own threads would not survive a fork, on either side of the fence.
@@ -33,11 +37,7 @@ struct Source {
 };
 
 Error malformed(const Source& source, std::string why) {
-  // OpenImageIO's messages can repeat the name and have several lines.
-  std::replace(why.begin(), why.end(), '\n', ' ');
-  if (why.size() > 200) why.resize(200);
-  return Error(source.name, why.empty() ? "is not a picture" : "is not a readable picture (" + why + ")",
-               kAcceptedPictures);
+  return malformed_picture(source.name, std::move(why));
 }
 
 // An open picture whose header has been checked.
@@ -97,7 +97,7 @@ void read_pixels(const Source& source, OpenPicture& picture, int first_channel, 
     throw malformed(source, picture.input->geterror());
 }
 
-LoadedImage decode_float(const Source& source, const LoadImageParams& params) {
+LoadedImage decode_by_library(const Source& source, const LoadImageParams& params) {
   without_threads();
   OpenPicture picture = open_picture(source, params);
   const OIIO::ImageSpec& spec = picture.spec;
@@ -119,6 +119,34 @@ LoadedImage decode_float(const Source& source, const LoadImageParams& params) {
   if (!spec.format.is_floating_point())
     for (float& value : rgb) value = linear_from_srgb(value);
   return loaded;
+}
+
+// The first bytes of a file; fewer where it has fewer.
+std::string first_bytes(const std::string& path, std::size_t count) {
+  std::string text(count, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(text.data(), static_cast<std::streamsize>(count));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+bool has_ending(const std::string& path, std::initializer_list<std::string_view> endings) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return std::ranges::count(endings, ending) > 0;
+}
+
+// By our own readers where OpenImageIO's leave out what counts for light.
+LoadedImage decode_float(const Source& source, const LoadImageParams& params) {
+  const std::string& name = source.name;
+  const auto whole = [&] {
+    // The largest pixel of any of these formats has 16 bytes; the rest is for smaller levels and headers.
+    const std::uint64_t most = params.max_pixels < (1ull << 58) ? 32 * params.max_pixels + (1 << 20) : ~0ull;
+    return read_file(name, most);
+  };
+  if (first_bytes(name, 2) == "#?" || has_ending(name, {".hdr", ".rgbe"}))
+    return decode_rgbe(whole(), name, params.max_pixels);
+  return decode_by_library(source, params);
 }
 
 struct LoadedImage8 {
@@ -244,6 +272,7 @@ Image8 load_image8(std::span<const std::byte> bytes, const std::string& name, co
 }
 
 void save_image(const std::filesystem::path& path, const Image& image) {
+  if (has_ending(path.string(), {".hdr"})) return write_file(path, encode_rgbe(image, path.string()));
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::HALF);
   // Half floats are what everybody reads, but a sun does not fit into them.
   for (const float value : image.values)
