@@ -12,7 +12,7 @@ class ToolHelp : public ToolTest {};
 TEST_F(ToolHelp, EveryCommandHasAnExample) {
   const ToolRun program = run({"--help"});
   EXPECT_EQ(program.err, "");
-  for (const std::string command : {"project", "render", "info", "demo"}) {
+  for (const std::string command : {"project", "render", "info", "demo", "convert-map"}) {
     EXPECT_NE(program.out.find("\n  " + command + " "), std::string::npos) << program;
     const ToolRun help = run({command, "--help"});
     EXPECT_EQ(help.err, "");
@@ -59,6 +59,9 @@ TEST_F(ToolHelp, WrongUsageIsExplained) {
         {{"render", "-o", png, "--frames", "0"}, "--frames: Value 0 not in range 1 to"},
         {{"render", "-o", png, "--exposure", "inf"}, "'inf' is no number from -60 to 60"},
         {{"render", "-o", png, "--rotate-light", "nan"}, "'nan' is no number from -36000 to 36000"},
+        {{"convert-map", "builtin:sky"}, "--output is required"},
+        {{"convert-map", "builtin:sky", "-o", png}, "ends neither in .exr nor in .hdr"},
+        {{"convert-map", "builtin:sky", "-o", path("a.exr"), "--layout", "cross"}, "cross"},
         {{"demo", "here"}, "here"}}) {
     const ToolRun run = run_tool(arguments);
     const auto where = testing::Message() << testing::PrintToString(arguments) << "\n" << run;

@@ -19,14 +19,19 @@ const char* const kLightHelp =
     "Picture (.hdr, .exr, …), coefficient file (.json), builtin:sky|studio|axes|thesis, or a formula \"fn:…\"";
 const char* const kModelHelp = "Model or scene (.x .obj .ply .stl .off .gltf .glb …), or builtin:sphere|knot|scene";
 
-void add_light_options(CLI::App& command, LoadLightParams& params) {
+std::map<std::string, Layout> layouts_by_name() {
   std::map<std::string, Layout> layouts;
   for (const Layout layout : all_layouts()) layouts.emplace(layout_name(layout), layout);
-  command
-      .add_option("--layout", params.layout,
-                  "Layout of the picture; if not given, as the file states it, else told from its shape")
-      ->transform(CLI::CheckedTransformer(layouts).description(""))
-      ->type_name("LAYOUT");
+  return layouts;
+}
+
+void add_light_options(CLI::App& command, LoadLightParams& params) {
+  add_layout_option(command, "--layout", params.layout,
+                    "Layout of the picture; if not given, as the file states it, else told from its name and shape");
+  add_picture_options(command, params);
+}
+
+void add_picture_options(CLI::App& command, LoadLightParams& params) {
   command.add_option("--max-pixels", params.image.max_pixels, "Refuse pictures with more pixels")
       ->capture_default_str()
       ->check(CLI::PositiveNumber.description(""));

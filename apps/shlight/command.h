@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -20,13 +21,25 @@ void add_project(CLI::App& program, Run& run);
 void add_render(CLI::App& program, Run& run);
 void add_info(CLI::App& program, Run& run);
 void add_demo(CLI::App& program, Run& run);
+void add_convert_map(CLI::App& program, Run& run);
 
 // The help of a LIGHT argument, and of a MODEL.
 extern const char* const kLightHelp;
 extern const char* const kModelHelp;
 
-// --layout and --max-pixels of commands that read a light.
+std::map<std::string, Layout> layouts_by_name();
+
+// An option that takes the name of a layout; Value is Layout or an optional one.
+template <class Value>
+CLI::Option* add_layout_option(CLI::App& command, const std::string& name, Value& layout, const std::string& help) {
+  return command.add_option(name, layout, help)
+      ->transform(CLI::CheckedTransformer(layouts_by_name()).description(""))
+      ->type_name("LAYOUT");
+}
+
+// Options of commands that read a light: --layout, and how pictures are read.
 void add_light_options(CLI::App& command, LoadLightParams& params);
+void add_picture_options(CLI::App& command, LoadLightParams& params);
 
 // How a light is turned and its coefficients are smoothed: --rotate and --window of project and render.
 struct LightShape {

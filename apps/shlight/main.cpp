@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   shlight::app::add_render(program, run);
   shlight::app::add_info(program, run);
   shlight::app::add_demo(program, run);
+  shlight::app::add_convert_map(program, run);
 
   const auto fail = [&](std::string text) {
     // One line, whatever the name of a file holds.

@@ -271,13 +271,15 @@ Image8 load_image8(std::span<const std::byte> bytes, const std::string& name, co
   return load_fenced<LoadedImage8>({name, bytes}, params, decode_bytes).image;
 }
 
-void save_image(const std::filesystem::path& path, const Image& image) {
+void save_image(const std::filesystem::path& path, const Image& image, std::optional<Layout> layout) {
   if (has_ending(path.string(), {".hdr"})) return write_file(path, encode_rgbe(image, path.string()));
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::HALF);
   // Half floats are what everybody reads, but a sun does not fit into them.
   for (const float value : image.values)
     if (std::abs(value) > kLargestHalf) spec.set_format(OIIO::TypeDesc::FLOAT);
   spec.attribute("compression", "zip");
+  if (layout == Layout::kOpenExrLatLong) spec.attribute("textureformat", "LatLong Environment");
+  if (layout == Layout::kOpenExrCube) spec.attribute("textureformat", "CubeFace Environment");
   spec.attribute("oiio:ColorSpace", "Linear");
   encode(path, spec, OIIO::TypeFloat, image.values.data(), "a file name that ends in .exr");
 }

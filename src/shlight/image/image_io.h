@@ -41,7 +41,7 @@ Image8 load_image8(std::span<const std::byte> bytes, const std::string& name, co
 
 // Writes linear values as .exr, in 16-bit floats unless a value is too large for them. Whole or not at all; throws
 // Error.
-void save_image(const std::filesystem::path& path, const Image& image);
+void save_image(const std::filesystem::path& path, const Image& image, std::optional<Layout> layout = {});
 
 // Writes an sRGB picture as .png. Whole or not at all; throws Error.
 void save_image8(const std::filesystem::path& path, const Image8& image);

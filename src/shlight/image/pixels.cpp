@@ -84,9 +84,14 @@ using Nodes = std::vector<WeightedDirection>;
 // --- lat-long: a rectangle in both angles, of density sin θ
 
 void lat_long_nodes(Layout layout, const GaussLegendre& rule, const Rectangle& pixel, Nodes& nodes) {
-  over_rectangle(rule, pixel.u, pixel.v, [&](double u, double v, double weight) {
-    nodes.push_back({*direction_at(layout, {u, v}), 2 * pi * pi * weight * std::sin(pi * v)});
-  });
+  const double area = 0.25 * 2 * pi * length(pixel.u) * pi * length(pixel.v);
+  for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
+    const Vec3d horizon = *direction_at(layout, {at(pixel.u, rule.nodes[j]), 0.5});
+    for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+      const double theta = pi * at(pixel.v, rule.nodes[i]), s = std::sin(theta);
+      nodes.push_back({{s * horizon.x, std::cos(theta), s * horizon.z}, area * rule.weights[i] * rule.weights[j] * s});
+    }
+  }
 }
 
 double lat_long_solid_angle(const Rectangle& pixel) {

@@ -16,11 +16,12 @@ constexpr int kDiscSamples = 16;  // of a pixel on a disc's edge: the sun is har
 
 // Whether the edge of a disc may run through a pixel with these 2 x 2 nodes.
 bool is_on_edge(const FunctionLight::Disc& disc, std::span<const WeightedDirection> nodes) {
-  const auto angle = [](Vec3d a, Vec3d b) { return std::acos(std::clamp(dot(a, b), -1.0, 1.0)); };
-  double size = 0;
-  for (const WeightedDirection& node : nodes) size = std::max(size, angle(node.direction, nodes[0].direction));
-  // The nodes of a square pixel lie 0.58 of its width apart; the first has all of it within 1.4 of the diagonal.
-  return std::abs(angle(nodes[0].direction, disc.axis) - disc.half_angle) <= 1.5 * size;
+  double widest = 0;  // squared chord
+  for (const WeightedDirection& node : nodes)
+    widest = std::max(widest, 2 - 2 * dot(node.direction, nodes[0].direction));
+  const double angle = std::acos(std::clamp(dot(nodes[0].direction, disc.axis), -1.0, 1.0));
+  // The nodes of a square pixel lie half of its width apart: none of it is farther from the first than 1.5 diagonals.
+  return std::abs(angle - disc.half_angle) <= 1.6 * std::sqrt(widest);
 }
 
 }  // namespace
@@ -53,10 +54,17 @@ RgbCoefficients CoefficientLight::project(int bands, int) const {
   return resize_bands(coefficients_, bands);
 }
 
+FunctionLight::FunctionLight(SphereFunction function, std::vector<Disc> discs)
+    : function_(std::move(function)), discs_(std::move(discs)) {
+  for (const Disc& disc : discs_) squared_chords_.push_back(4 * std::pow(std::sin(disc.half_angle / 2), 2));
+}
+
 Rgb FunctionLight::radiance(Vec3d direction) const {
   Rgb sum = function_(direction);
-  for (const Disc& disc : discs_)
-    if (dot(direction, disc.axis) >= std::cos(disc.half_angle)) sum += disc.radiance;
+  for (std::size_t i = 0; i < discs_.size(); ++i) {
+    const Vec3d chord = direction - discs_[i].axis;
+    if (dot(chord, chord) <= squared_chords_[i]) sum += discs_[i].radiance;
+  }
   return sum;
 }
 

@@ -94,8 +94,7 @@ class FunctionLight : public Light {
     double half_angle = 0;  // radians
     Rgb radiance;
   };
-  explicit FunctionLight(SphereFunction function, std::vector<Disc> discs = {})
-      : function_(std::move(function)), discs_(std::move(discs)) {}
+  explicit FunctionLight(SphereFunction function, std::vector<Disc> discs = {});
   Rgb radiance(Vec3d direction) const override;
   RgbCoefficients project(int bands, int threads) const override;
   Image picture(const MakePictureParams& params, const Progress& progress) const override;
@@ -103,6 +102,7 @@ class FunctionLight : public Light {
  private:
   SphereFunction function_;
   std::vector<Disc> discs_;
+  std::vector<double> squared_chords_;  // of the discs' edges to their axes
 };
 
 }  // namespace shlight

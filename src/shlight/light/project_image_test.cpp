@@ -258,7 +258,8 @@ TEST_F(References, OpenExrEnvironmentMaps) {
 
 // One real light in every other layout, through convert-map's resampling.
 TEST_F(References, OneRealLightInEveryLayout) {
-  for (const auto& path : {files[2], files[5]}) {
+  {
+    const auto path = files[5];
     const auto light = load_light(path.string()).light;
     const RgbCoefficients expected = light->project(5);
     for (const Layout layout : all_layouts()) {
