@@ -13,22 +13,17 @@ using std::numbers::pi;
 
 // --- along one side of the picture: a row of faces, or one, of equally many pixels each
 
-struct Interval {
-  double from = 0, to = 0;
-};
-
 class Side {
  public:
   Side(int length, int faces, bool on_border) : faces_(faces), pixels_(length / faces), on_border_(on_border) {}
 
-  // In [0, 1], as are all of these.
-  Interval interval(int pixel) const {
-    const int face = pixel / pixels_, i = pixel % pixels_;
-    if (!on_border_ || pixels_ == 1)
-      return {(face + i / double(pixels_)) / faces_, (face + (i + 1) / double(pixels_)) / faces_};
+  PixelSide pixel(int index) const {
+    const int face = index / pixels_, i = index % pixels_;
+    if (!on_border_ || pixels_ == 1) return {2.0 * i / pixels_ - 1, 2.0 * (i + 1) / pixels_ - 1, face};
     const double last = pixels_ - 1;
-    return {(face + std::max(0.0, (i - 0.5) / last)) / faces_, (face + std::min(1.0, (i + 0.5) / last)) / faces_};
+    return {std::max(-1.0, (2 * i - 1) / last - 1), std::min(1.0, (2 * i + 1) / last - 1), face};
   }
+  // In [0, 1] over the picture, as is the coordinate below.
   double centre(int pixel) const {
     const int face = pixel / pixels_, i = pixel % pixels_;
     if (!on_border_ || pixels_ == 1) return (face + (i + 0.5) / pixels_) / faces_;
@@ -54,98 +49,77 @@ Side vertical(Layout layout, PictureSize size) {
   return {size.height, face_grid(layout).rows, centres_on_border(layout)};
 }
 
-struct Rectangle {
-  Interval u, v;
+struct Interval {
+  double from = 0, to = 0;
+  double length() const { return to - from; }
+  double at(double node) const { return from + length() * 0.5 * (1 + node); }
 };
-
-Rectangle rectangle_of(Layout layout, PictureSize size, Pixel pixel) {
-  assert(pixel.x >= 0 && pixel.x < size.width && pixel.y >= 0 && pixel.y < size.height);
-  return {horizontal(layout, size).interval(pixel.x), vertical(layout, size).interval(pixel.y)};
+Interval across(const PixelSide& column) {
+  return {column.from, column.to};
 }
-
-double length(Interval i) {
-  return i.to - i.from;
-}
-double at(Interval i, double node) {
-  return i.from + length(i) * 0.5 * (1 + node);
+Interval upward(const PixelSide& row) {
+  return {-row.to, -row.from};
 }
 
 // Calls f(x, y, weight) at the nodes of the product rule.
 template <class F>
 void over_rectangle(const GaussLegendre& rule, Interval x, Interval y, F&& f) {
-  const double area = 0.25 * length(x) * length(y);
+  const double area = 0.25 * x.length() * y.length();
   for (std::size_t i = 0; i < rule.nodes.size(); ++i)
     for (std::size_t j = 0; j < rule.nodes.size(); ++j)
-      f(at(x, rule.nodes[j]), at(y, rule.nodes[i]), area * rule.weights[i] * rule.weights[j]);
+      f(x.at(rule.nodes[j]), y.at(rule.nodes[i]), area * rule.weights[i] * rule.weights[j]);
 }
 
 using Nodes = std::vector<WeightedDirection>;
 
-// --- lat-long: a rectangle in both angles, of density sin θ
+// --- lat-long: a rectangle in both angles, of density sin θ = cos(latitude); half the picture is π wide, π/2 high
 
-void lat_long_nodes(Layout layout, const GaussLegendre& rule, const Rectangle& pixel, Nodes& nodes) {
-  const double area = 0.25 * 2 * pi * length(pixel.u) * pi * length(pixel.v);
+void lat_long_nodes(const GaussLegendre& rule, Interval x, Interval y, Nodes& nodes) {
+  const double area = 0.25 * pi * x.length() * (pi / 2) * y.length();
   for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
-    const Vec3d horizon = *direction_at(layout, {at(pixel.u, rule.nodes[j]), 0.5});
+    const double azimuth = pi * x.at(rule.nodes[j]);
+    const double right = std::sin(azimuth), back = -std::cos(azimuth);
     for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-      const double theta = pi * at(pixel.v, rule.nodes[i]), s = std::sin(theta);
-      nodes.push_back({{s * horizon.x, std::cos(theta), s * horizon.z}, area * rule.weights[i] * rule.weights[j] * s});
+      const double latitude = pi / 2 * y.at(rule.nodes[i]), c = std::cos(latitude);
+      nodes.push_back({{c * right, std::sin(latitude), c * back}, area * rule.weights[i] * rule.weights[j] * c});
     }
   }
 }
 
-double lat_long_solid_angle(const Rectangle& pixel) {
-  // cos θ0 − cos θ1 as a product, which keeps its digits at the poles.
-  const double middle = 0.5 * pi * (pixel.v.from + pixel.v.to), half = 0.5 * pi * length(pixel.v);
-  return 2 * pi * length(pixel.u) * 2 * std::sin(middle) * std::sin(half);
+double lat_long_solid_angle(Interval x, Interval y) {
+  // The difference of two sines as a product, which keeps its digits at the poles.
+  return pi * x.length() * 2 * std::cos(pi / 4 * (y.from + y.to)) * std::sin(pi / 4 * y.length());
 }
 
-// --- cubes: (s, t) in [−1, 1]² on a face at distance 1 has dω = ds dt / (1+s²+t²)^(3/2)
+// --- cubes: (x, y) in [−1, 1]² on a face at distance 1 has dω = dx dy / (1+x²+y²)^(3/2)
 
-struct FaceRectangle {
-  const CubeFace* face = nullptr;
-  Interval s, t;
-};
-
-FaceRectangle on_face(Layout layout, PictureSize size, Pixel pixel) {
-  const auto [columns, rows] = face_grid(layout);
-  const int column = pixel.x / (size.width / columns), row = pixel.y / (size.height / rows);
-  for (const CubeFace& face : cube_faces(layout))
-    if (face.column == column && face.row == row) {
-      const auto [u, v] = rectangle_of(layout, size, pixel);
-      return {&face,
-              {2 * (u.from * columns - column) - 1, 2 * (u.to * columns - column) - 1},
-              {2 * (v.from * rows - row) - 1, 2 * (v.to * rows - row) - 1}};
-    }
-  return {};
-}
-
-void face_nodes(const GaussLegendre& rule, const FaceRectangle& pixel, Nodes& nodes) {
-  over_rectangle(rule, pixel.s, pixel.t, [&](double s, double t, double weight) {
-    const double scale = 1 / std::sqrt(1 + s * s + t * t);
-    nodes.push_back(
-        {scale * (pixel.face->forward + s * pixel.face->right + t * pixel.face->down), weight * scale * scale * scale});
+void face_nodes(const GaussLegendre& rule, const CubeFace& face, Interval x, Interval y, Nodes& nodes) {
+  over_rectangle(rule, x, y, [&](double right, double up, double weight) {
+    const double scale = 1 / std::sqrt(1 + right * right + up * up);
+    nodes.push_back({scale * (face.forward + right * face.right - up * face.down), weight * scale * scale * scale});
   });
 }
 
-double face_solid_angle(const FaceRectangle& pixel) {
-  // Of the rectangle from (0, 0) to (s, t).
-  const auto corner = [](double s, double t) { return std::atan2(s * t, std::sqrt(1 + s * s + t * t)); };
-  const auto [s, t] = std::pair(pixel.s, pixel.t);
-  return corner(s.to, t.to) - corner(s.from, t.to) - corner(s.to, t.from) + corner(s.from, t.from);
+double face_solid_angle(Interval x, Interval y) {
+  // Of the rectangle from (0, 0) to (right, up).
+  const auto corner = [](double right, double up) {
+    return std::atan2(right * up, std::sqrt(1 + right * right + up * up));
+  };
+  return corner(x.to, y.to) - corner(x.from, y.to) - corner(x.to, y.from) + corner(x.from, y.from);
 }
 
-// --- discs: x, y in [−1, 1], x right, y up
+// --- discs: x right, y up, in the circle of radius 1
 
-// Of a radius r, dω = density · dx dy: angular map π sin(πr)/r, mirror ball 4.
-double disc_density(Layout layout, double r) {
-  if (layout == Layout::kMirrorBall) return 4;
-  return r < 1e-8 ? pi * pi : pi * std::sin(pi * r) / r;
-}
-
+// dω = π sin(πr)/r dx dy in the angular map, 4 dx dy in the mirror ball.
 void add_disc_node(Layout layout, double x, double y, double weight, Nodes& nodes) {
-  if (const auto direction = direction_at(layout, {0.5 + 0.5 * x, 0.5 - 0.5 * y}))
-    nodes.push_back({*direction, weight * disc_density(layout, std::hypot(x, y))});
+  const double r2 = x * x + y * y;
+  if (layout == Layout::kMirrorBall) {
+    const double scale = 2 * std::sqrt(std::max(0.0, 1 - r2));
+    nodes.push_back({{scale * x, scale * y, 2 * r2 - 1}, 4 * weight});
+    return;
+  }
+  const double r = std::sqrt(r2), scale = r < 1e-8 ? pi : std::sin(pi * r) / r;
+  nodes.push_back({{scale * x, scale * y, -std::cos(pi * r)}, weight * pi * scale});
 }
 
 // The part of a rectangle inside of the circle. In y = sin ψ, x = cos ψ sin φ the circle is φ = ±π/2, and what goes
@@ -162,12 +136,12 @@ void disc_edge_nodes(Layout layout, const GaussLegendre& rule, Interval x, Inter
   for (std::size_t piece = 0; piece + 1 < cuts.size(); ++piece) {
     const Interval psi = {std::asin(cuts[piece]), std::asin(cuts[piece + 1])};
     for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-      const double p = at(psi, rule.nodes[i]), reach = std::cos(p);
+      const double p = psi.at(rule.nodes[i]), reach = std::cos(p);
       const Interval phi = {std::asin(std::clamp(x.from / reach, -1.0, 1.0)),
                             std::asin(std::clamp(x.to / reach, -1.0, 1.0))};
       for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
-        const double q = at(phi, rule.nodes[j]);
-        const double weight = 0.25 * rule.weights[i] * rule.weights[j] * length(psi) * length(phi);
+        const double q = phi.at(rule.nodes[j]);
+        const double weight = 0.25 * rule.weights[i] * rule.weights[j] * psi.length() * phi.length();
         if (weight > 0)
           add_disc_node(layout, reach * std::sin(q), std::sin(p), weight * reach * reach * std::cos(q), nodes);
       }
@@ -175,22 +149,22 @@ void disc_edge_nodes(Layout layout, const GaussLegendre& rule, Interval x, Inter
   }
 }
 
-struct DiscRectangle {
-  Interval x, y;
-  double nearest = 0, farthest = 0;  // from the centre
-};
-
-DiscRectangle on_disc(const Rectangle& pixel) {
-  const Interval x = {2 * pixel.u.from - 1, 2 * pixel.u.to - 1}, y = {1 - 2 * pixel.v.to, 1 - 2 * pixel.v.from};
+// How far from the centre a rectangle begins and ends.
+double nearest(Interval x, Interval y) {
   const auto near = [](Interval i) { return i.from * i.to < 0 ? 0 : std::min(std::abs(i.from), std::abs(i.to)); };
-  const auto far = [](Interval i) { return std::max(std::abs(i.from), std::abs(i.to)); };
-  return {x, y, std::hypot(near(x), near(y)), std::hypot(far(x), far(y))};
+  return std::hypot(near(x), near(y));
+}
+double farthest(Interval x, Interval y) {
+  return std::hypot(std::max(std::abs(x.from), std::abs(x.to)), std::max(std::abs(y.from), std::abs(y.to)));
 }
 
-// Where the square roots at the circle are no longer harmless to a plain rule.
-constexpr double kDiscEdge = 0.8;
+// Where the edge of a disc begins that a plain rule does not do: for the mirror ball, whose square root at the circle
+// bends a plain rule nearby too, eight pixels within.
+double disc_edge(Layout layout, PictureSize size) {
+  return layout == Layout::kMirrorBall ? std::max(0.5, 1 - 16.0 / size.width) : 1;
+}
 
-// --- octahedral: X, Y in [−1, 1], Y up. A face of the octahedron is flat, so that dω = dX dY / |p|³ for its point p.
+// --- octahedral: x right, y up. A face of the octahedron is flat, so that dω = dx dy / |p|³ for its point p.
 
 struct PlanePoint {
   double x = 0, y = 0;
@@ -229,8 +203,7 @@ void triangle_nodes(const GaussLegendre& rule, PlanePoint a, PlanePoint b, Plane
   });
 }
 
-void octahedral_nodes(const GaussLegendre& rule, const Rectangle& pixel, Nodes& nodes) {
-  const Interval x = {2 * pixel.u.from - 1, 2 * pixel.u.to - 1}, y = {1 - 2 * pixel.v.to, 1 - 2 * pixel.v.from};
+void octahedral_nodes(const GaussLegendre& rule, Interval x, Interval y, Nodes& nodes) {
   // The creases: both axes and the diamond's four sides, a x + b y = c.
   constexpr double kCreases[6][3] = {{1, 0, 0}, {0, 1, 0}, {1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}};
   std::vector<Polygon> pieces = {{{x.from, y.from}, {x.to, y.from}, {x.to, y.to}, {x.from, y.to}}};
@@ -245,8 +218,7 @@ void octahedral_nodes(const GaussLegendre& rule, const Rectangle& pixel, Nodes& 
     for (std::size_t i = 1; i + 1 < piece.size(); ++i) triangle_nodes(rule, piece[0], piece[i], piece[i + 1], nodes);
 }
 
-bool is_creased(const Rectangle& pixel) {
-  const Interval x = {2 * pixel.u.from - 1, 2 * pixel.u.to - 1}, y = {2 * pixel.v.from - 1, 2 * pixel.v.to - 1};
+bool is_creased(Interval x, Interval y) {
   if (x.from * x.to < 0 || y.from * y.to < 0) return true;
   const auto [x0, x1] = std::minmax({std::abs(x.from), std::abs(x.to)});
   const auto [y0, y1] = std::minmax({std::abs(y.from), std::abs(y.to)});
@@ -275,38 +247,70 @@ Pixel pixel_at(Layout layout, PictureSize size, ImagePoint point) {
 
 PixelQuadrature::PixelQuadrature(Layout layout, PictureSize size, int nodes_a_side, Nodes kind)
     : layout_(layout),
-      size_(size),
       rule_(make_rule(nodes_a_side, kind)),
-      edge_rule_(make_rule(nodes_a_side + 2, kind)) {
+      edge_rule_(make_rule(nodes_a_side + 2, kind)),
+      disc_edge_(disc_edge(layout, size)),
+      grid_(face_grid(layout)) {
   assert(fits(layout, size));
+  for (int x = 0; x < size.width; ++x) columns_.push_back(horizontal(layout, size).pixel(x));
+  for (int y = 0; y < size.height; ++y) rows_.push_back(vertical(layout, size).pixel(y));
+  if (cube_faces(layout).empty()) return;
+  faces_.resize(static_cast<std::size_t>(grid_.columns * grid_.rows));
+  for (const CubeFace& face : cube_faces(layout))
+    faces_[static_cast<std::size_t>(face.row * grid_.columns + face.column)] = &face;
 }
 
 void PixelQuadrature::nodes(Pixel pixel, std::vector<WeightedDirection>& nodes) const {
+  const PixelSide& column = columns_[static_cast<std::size_t>(pixel.x)];
+  const PixelSide& row = rows_[static_cast<std::size_t>(pixel.y)];
+  const Interval x = across(column), y = upward(row);
   nodes.clear();
-  if (!cube_faces(layout_).empty()) {
-    if (const FaceRectangle part = on_face(layout_, size_, pixel); part.face) face_nodes(rule_, part, nodes);
+  if (!faces_.empty()) {
+    if (const CubeFace* face = faces_[static_cast<std::size_t>(row.face * grid_.columns + column.face)])
+      face_nodes(rule_, *face, x, y, nodes);
     return;
   }
-  const Rectangle part = rectangle_of(layout_, size_, pixel);
   switch (layout_) {
     case Layout::kAngularMap:
-    case Layout::kMirrorBall: {
-      const DiscRectangle disc = on_disc(part);
-      if (disc.nearest >= 1) return;
-      if (disc.farthest > kDiscEdge) return disc_edge_nodes(layout_, edge_rule_, disc.x, disc.y, nodes);
-      over_rectangle(rule_, disc.x, disc.y,
-                     [&](double x, double y, double weight) { add_disc_node(layout_, x, y, weight, nodes); });
+    case Layout::kMirrorBall:
+      if (nearest(x, y) >= 1) return;
+      if (farthest(x, y) > disc_edge_) return disc_edge_nodes(layout_, edge_rule_, x, y, nodes);
+      over_rectangle(rule_, x, y,
+                     [&](double right, double up, double weight) { add_disc_node(layout_, right, up, weight, nodes); });
       return;
-    }
     case Layout::kOctahedral:
-      if (is_creased(part)) return octahedral_nodes(rule_, part, nodes);
-      over_rectangle(rule_, part.u, part.v, [&](double u, double v, double weight) {
-        add_octahedron_node(2 * u - 1, 1 - 2 * v, 4 * weight, nodes);
-      });
+      if (is_creased(x, y)) return octahedral_nodes(rule_, x, y, nodes);
+      over_rectangle(rule_, x, y,
+                     [&](double right, double up, double weight) { add_octahedron_node(right, up, weight, nodes); });
       return;
     default:
-      lat_long_nodes(layout_, rule_, part, nodes);
+      lat_long_nodes(rule_, x, y, nodes);
   }
+}
+
+bool PixelQuadrature::covers(Pixel pixel) const {
+  const PixelSide& column = columns_[static_cast<std::size_t>(pixel.x)];
+  const PixelSide& row = rows_[static_cast<std::size_t>(pixel.y)];
+  if (!faces_.empty()) return faces_[static_cast<std::size_t>(row.face * grid_.columns + column.face)] != nullptr;
+  if (layout_ != Layout::kAngularMap && layout_ != Layout::kMirrorBall) return true;
+  return nearest(across(column), upward(row)) < 1;
+}
+
+double PixelQuadrature::solid_angle(Pixel pixel) const {
+  const Interval x = across(columns_[static_cast<std::size_t>(pixel.x)]);
+  const Interval y = upward(rows_[static_cast<std::size_t>(pixel.y)]);
+  if (!faces_.empty()) return covers(pixel) ? face_solid_angle(x, y) : 0;
+  if (is_lat_long(layout_)) return lat_long_solid_angle(x, y);
+  if (layout_ == Layout::kMirrorBall && farthest(x, y) <= 1) return 4 * x.length() * y.length();
+  std::vector<WeightedDirection> all;
+  nodes(pixel, all);
+  double sum = 0;
+  for (const WeightedDirection& node : all) sum += node.solid_angle;
+  return sum;
+}
+
+double pixel_solid_angle(Layout layout, PictureSize size, Pixel pixel) {
+  return PixelQuadrature(layout, size, nodes_a_side_for(layout, size, 6)).solid_angle(pixel);
 }
 
 int nodes_a_side_for(Layout layout, PictureSize size, int bands) {
@@ -315,7 +319,7 @@ int nodes_a_side_for(Layout layout, PictureSize size, int bands) {
   double half = 1 / n;  // cube, at the middle of a face
   if (is_lat_long(layout)) half = std::max(pi / n, pi / (2 * size.height));
   if (layout == Layout::kAngularMap) half = pi / n;
-  if (layout == Layout::kMirrorBall) half = 2 / std::sqrt(1 - kDiscEdge * kDiscEdge) / n;
+  if (layout == Layout::kMirrorBall) half = 2 / std::sqrt(1 - std::pow(disc_edge(layout, size), 2)) / n;
   if (layout == Layout::kOctahedral) half = std::sqrt(3.0) / n;
   // A wave of `bands` radians a radian, over 2a with k Gauss nodes, is missed by (2a·bands)^2k (k!)⁴ / ((2k+1) (2k)!³)
   // of itself.
@@ -327,31 +331,6 @@ int nodes_a_side_for(Layout layout, PictureSize size, int bands) {
     if (k >= 2 && error / (2 * k + 1) < 1e-8) return k;
   }
   return 64;
-}
-
-bool PixelQuadrature::covers(Pixel pixel) const {
-  if (!cube_faces(layout_).empty()) return on_face(layout_, size_, pixel).face != nullptr;
-  if (layout_ != Layout::kAngularMap && layout_ != Layout::kMirrorBall) return true;
-  return on_disc(rectangle_of(layout_, size_, pixel)).nearest < 1;
-}
-
-double PixelQuadrature::solid_angle(Pixel pixel) const {
-  if (!cube_faces(layout_).empty()) {
-    const FaceRectangle part = on_face(layout_, size_, pixel);
-    return part.face ? face_solid_angle(part) : 0;
-  }
-  const Rectangle part = rectangle_of(layout_, size_, pixel);
-  if (is_lat_long(layout_)) return lat_long_solid_angle(part);
-  if (layout_ == Layout::kMirrorBall && on_disc(part).farthest <= 1) return 16 * length(part.u) * length(part.v);
-  std::vector<WeightedDirection> all;
-  nodes(pixel, all);
-  double sum = 0;
-  for (const WeightedDirection& node : all) sum += node.solid_angle;
-  return sum;
-}
-
-double pixel_solid_angle(Layout layout, PictureSize size, Pixel pixel) {
-  return PixelQuadrature(layout, size, nodes_a_side_for(layout, size, 6)).solid_angle(pixel);
 }
 
 }  // namespace shlight

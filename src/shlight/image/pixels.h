@@ -24,6 +24,13 @@ struct WeightedDirection {
   double solid_angle = 0;
 };
 
+// What a pixel covers along one side of its face (of the whole picture, where that is not one of faces), in [−1, 1] to
+// the right or downward.
+struct PixelSide {
+  double from = 0, to = 0;
+  int face = 0;  // counted along the same side
+};
+
 // Quadrature over the pixels of a picture: the integral over a pixel of a smooth function of the direction is the sum
 // over its nodes. A pixel that is cut by a disc's circle has nodes in the part inside; one that lies across the creases
 // of the octahedron has them piece by piece.
@@ -48,8 +55,11 @@ class PixelQuadrature {
 
  private:
   Layout layout_;
-  PictureSize size_;
   GaussLegendre rule_, edge_rule_;
+  double disc_edge_;
+  std::vector<PixelSide> columns_, rows_;
+  FaceGrid grid_;
+  std::vector<const CubeFace*> faces_;  // by row and column; null where a cross has none
 };
 
 // How many nodes a side it takes for functions of so many bands to be right to 1e-8 of their largest value in each

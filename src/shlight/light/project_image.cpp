@@ -247,13 +247,96 @@ RgbCoefficients project_lat_long(const Image& image, int bands, int threads) {
   return total.to_world();
 }
 
+// --- every other layout: the basis at the nodes of all pixels, many nodes at a time
+
+// Adds Σ_j basis_i(j) · channel_c(j) to sums[3i + c] for whole blocks of nodes; channels lie kNodes apart.
+constexpr std::size_t kNodes = 256;
+SHLIGHT_CLONES void add_nodes(const float* basis, const float* channels, std::size_t coefficients, double* sums) {
+  for (std::size_t i = 0; i < coefficients; ++i) {
+    Lanes r{}, g{}, b{};
+    for (std::size_t j = 0; j < kNodes; j += kLanes) {
+      Lanes value, red, green, blue;
+      load(basis + i * kNodes + j, value);
+      load(channels + j, red), load(channels + kNodes + j, green), load(channels + 2 * kNodes + j, blue);
+      r += value * red, g += value * green, b += value * blue;
+    }
+    sums[3 * i] += sum_of(r), sums[3 * i + 1] += sum_of(g), sums[3 * i + 2] += sum_of(b);
+  }
+}
+
+// Collects weighted directions and projects them as soon as there is a block of them.
+class NodeProjector {
+ public:
+  explicit NodeProjector(int bands)
+      : bands_(bands),
+        basis_(static_cast<std::size_t>(num_coefficients(bands)) * kNodes),
+        sums_(3 * static_cast<std::size_t>(num_coefficients(bands))) {}
+
+  void add(const WeightedDirection& node, Rgb radiance) {
+    x_[count_] = static_cast<float>(node.direction.x);
+    y_[count_] = static_cast<float>(node.direction.y);
+    z_[count_] = static_cast<float>(node.direction.z);
+    channels_[count_] = static_cast<float>(node.solid_angle * radiance.r);
+    channels_[kNodes + count_] = static_cast<float>(node.solid_angle * radiance.g);
+    channels_[2 * kNodes + count_] = static_cast<float>(node.solid_angle * radiance.b);
+    if (++count_ == kNodes) flush();
+  }
+
+  RgbCoefficients take() {
+    // What is left of an earlier block is still a direction; its radiance must not count again.
+    for (std::size_t c = 0; c < 3; ++c)
+      std::fill(channels_.begin() + static_cast<std::ptrdiff_t>(c * kNodes + count_),
+                channels_.begin() + static_cast<std::ptrdiff_t>((c + 1) * kNodes), 0.0f);
+    flush();
+    RgbCoefficients result(bands_);
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = {sums_[3 * i], sums_[3 * i + 1], sums_[3 * i + 2]};
+    return result;
+  }
+
+ private:
+  void flush() {
+    eval_basis(bands_, x_, y_, z_, basis_);
+    add_nodes(basis_.data(), channels_.data(), sums_.size() / 3, sums_.data());
+    count_ = 0;
+  }
+
+  int bands_;
+  std::size_t count_ = 0;
+  std::array<float, kNodes> x_{}, y_{}, z_{};
+  std::array<float, 3 * kNodes> channels_{};
+  std::vector<float> basis_;
+  std::vector<double> sums_;
+};
+
+RgbCoefficients project_nodes(const Environment& environment, int bands, int threads) {
+  const Image& image = environment.image;
+  const PixelQuadrature pixels(environment.layout, environment.size(),
+                               nodes_a_side_for(environment.layout, environment.size(), bands));
+  constexpr int kRowsABlock = 8;
+  std::vector<RgbCoefficients> blocks(static_cast<std::size_t>((image.height + kRowsABlock - 1) / kRowsABlock));
+  parallel_for(blocks.size(), threads, [&](std::size_t block) {
+    NodeProjector projector(bands);
+    std::vector<WeightedDirection> nodes;
+    const int first = static_cast<int>(block) * kRowsABlock;
+    for (int y = first; y < std::min(image.height, first + kRowsABlock); ++y)
+      for (int x = 0; x < image.width; ++x) {
+        pixels.nodes({x, y}, nodes);
+        for (const WeightedDirection& node : nodes) projector.add(node, image.rgb(x, y));
+      }
+    blocks[block] = projector.take();
+  });
+  RgbCoefficients total(bands);
+  for (const RgbCoefficients& block : blocks) total += block;
+  return total;
+}
+
 }  // namespace
 
 RgbCoefficients project_image(const Environment& environment, int bands, int threads) {
   SHLIGHT_ASSERT_GE(environment.image.width, 1);
   SHLIGHT_ASSERT_GE(bands, 1);
   if (environment.layout == Layout::kLatLong) return project_lat_long(environment.image, bands, threads);
-  return project_image_by_pixels(environment, bands, threads);
+  return project_nodes(environment, bands, threads);
 }
 
 RgbCoefficients project_image_by_pixels(const Environment& environment, int bands, int threads) {

@@ -41,6 +41,32 @@ void project_lat_long(benchmark::State& state) {
   run_against_floor(state, kWidth * kHeight, read, project);
 }
 
+// Other layouts, of about as many pixels, against the same read.
+void project_layout(benchmark::State& state, Layout layout) {
+  const PictureSize size = picture_size(layout, size_from_horizon(layout, kWidth));
+  Environment environment{Image(size.width, size.height), layout};
+  for (float& v : environment.image.values) v = 0.5f;
+  const auto read = [&] {
+    float sums[64] = {};
+    const auto& values = environment.image.values;
+    for (std::size_t i = 0; i + 64 <= values.size(); i += 64)
+      for (std::size_t j = 0; j < 64; ++j) sums[j] += values[i + j];
+    benchmark::DoNotOptimize(sums);
+  };
+  const auto project = [&] {
+    benchmark::DoNotOptimize(project_image(environment, static_cast<int>(state.range(0)), 1));
+  };
+  run_against_floor(state, static_cast<double>(environment.image.num_pixels()), read, project);
+}
+
+BENCHMARK_CAPTURE(project_layout, vertical_strip, Layout::kVerticalStrip)
+    ->Arg(3)
+    ->Arg(5)
+    ->UseManualTime()
+    ->ArgName("bands");
+BENCHMARK_CAPTURE(project_layout, angular_map, Layout::kAngularMap)->Arg(3)->Arg(5)->UseManualTime()->ArgName("bands");
+BENCHMARK_CAPTURE(project_layout, octahedral, Layout::kOctahedral)->Arg(3)->Arg(5)->UseManualTime()->ArgName("bands");
+
 BENCHMARK(project_lat_long)->Arg(3)->Arg(5)->Arg(10)->Arg(32)->Arg(64)->UseManualTime()->ArgName("bands");
 
 }  // namespace

@@ -60,6 +60,16 @@ TEST(ProjectImage, SeparableEqualsPixelByPixel) {
     }
 }
 
+TEST(ProjectImage, EveryLayoutEqualsPixelByPixel) {
+  for (const Layout layout : all_layouts())
+    for (const int bands : {1, 4, 9}) {
+      const PictureSize size = picture_size(layout, size_from_horizon(layout, 60));
+      const Environment environment = some_environment(layout, size.width, size.height);
+      SCOPED_TRACE(testing::Message() << layout_name(layout) << ", " << bands << " bands");
+      expect_near(project_image(environment, bands), project_image_by_pixels(environment, bands), kFloatSums);
+    }
+}
+
 TEST(ProjectImage, ConstantRadianceIsOneCoefficient) {
   for (const Layout layout : all_layouts()) {
     const auto [width, height] = picture_size(layout, size_from_horizon(layout, 192));
