@@ -31,6 +31,15 @@ for light in sky studio axes; do
 done
 side_by_side "$images/lights.png" "$work"/{sky,evening,studio,axes}.png
 
+# A low sun over a dark ground rings: before and after, negative light striped.
+for window in none auto; do
+  for model in sphere knot; do
+    "$shlight" render "builtin:$model" --light builtin:sky:elevation=20,azimuth=-60,turbidity=2.5,ground=0 \
+      --window "$window" --mark-negative --camera 60,-35 --exposure 1 --size 300x300 -o "$work/ringing_${model}_$window.png"
+  done
+done
+side_by_side "$images/ringing.png" "$work"/ringing_{sphere,knot}_none.png "$work"/ringing_{sphere,knot}_auto.png
+
 # One light in every layout, each beside the sphere that it lights: all spheres are alike.
 globe="fn:r=(0.2+0.8*max(0,x)+0.5*max(0,z))*(abs(sin(6*asin(y)))*abs(sin(6*atan2(x,-z)))*sqrt(1-y*y)>0.06?1:0.3)"
 globe+="+6*max(0,0.5*x+0.62*y-0.6*z)^12;"

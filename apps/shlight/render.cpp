@@ -119,6 +119,8 @@ void add_render(CLI::App& program, Run& run) {
       ->capture_default_str()
       ->check(CLI::Range(1, 1'000'000).description("1 to 1000000"));
   command->add_flag("--no-background", arguments->no_background, "Do not draw the light behind the model");
+  command->add_flag("--mark-negative", params.mark_negative,
+                    "Stripes where the irradiance of so few bands is below zero (see --window)");
   command->add_option("-o,--output", arguments->output, "Picture as shown (.png) or linear radiance (.exr)")
       ->type_name("FILE.png|.exr")
       ->check(CLI::Validator(

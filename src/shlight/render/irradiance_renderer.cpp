@@ -11,6 +11,11 @@ IrradianceRenderer::IrradianceRenderer(const RgbCoefficients& radiance)
   set_irradiance_uniforms(program_, radiance);
 }
 
+void IrradianceRenderer::mark_negative(Vec3f radiance) {
+  program_.use();
+  program_.set("u_negative", radiance);
+}
+
 void IrradianceRenderer::draw(const GpuScene& scene, const View& view, const Rotation& light_to_world) const {
   scene.draw(program_, view, light_to_world);
 }

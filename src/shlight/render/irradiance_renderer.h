@@ -17,6 +17,9 @@ class IrradianceRenderer {
   // `radiance` has 1 to 10 bands. Compiles a shader for their number.
   explicit IrradianceRenderer(const RgbCoefficients& radiance);
 
+  // From now on, paints stripes of this radiance where a channel of the irradiance is negative; black: no more.
+  void mark_negative(Vec3f radiance);
+
   // Draws into the framebuffer and viewport now bound: linear radiance, alpha 1.
   void draw(const GpuScene& scene, const View& view, const Rotation& light_to_world = {}) const;
 

@@ -52,7 +52,12 @@ RenderResult render_irradiance(const Scene& scene, const RenderLight& light, con
   const RgbCoefficients coefficients = scaled(unit, resize_bands(light.coefficients, params.bands));
   const Background background =
       light.background.num_pixels() > 0 ? Background(light.background, unit) : Background(coefficients);
-  const IrradianceRenderer renderer(coefficients);
+  IrradianceRenderer renderer(coefficients);
+  const double exposed = exposure / unit * std::exp2(params.exposure);
+  if (params.mark_negative) {
+    const float bright = static_cast<float>(1 / exposed);
+    renderer.mark_negative({bright, 0, bright});
+  }
   const GpuScene gpu_scene(scene);
   const ToneMapper tone_mapper;
 
@@ -66,7 +71,7 @@ RenderResult render_irradiance(const Scene& scene, const RenderLight& light, con
     if (params.show_background) background.draw(view, params.rotate_light);
     radiance_target.resolve();
     picture_target.begin();
-    tone_mapper.draw(radiance_target.texture(), exposure / unit * std::exp2(params.exposure));
+    tone_mapper.draw(radiance_target.texture(), exposed);
     glFinish();
   };
 

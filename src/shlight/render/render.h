@@ -21,6 +21,7 @@ struct RenderParams {
   double exposure = 0;    // stops, on top of auto_exposure() of the light
   int frames = 1;         // at least 1: how many are timed; the view turns once around in them
   bool show_background = true;
+  bool mark_negative = false;  // magenta stripes where a channel of the irradiance is below zero
 };
 
 // A distant light as the renderer needs it.

@@ -125,6 +125,34 @@ TEST_F(Render, WhiteFurnace) {
       }
 }
 
+// A delta light's irradiance of three bands is negative at about 105° to 130° from it: magenta there, and nowhere else.
+TEST_F(Render, NegativeIrradianceIsMarked) {
+  const RgbCoefficients light = delta_light(3, {0, 1, 0});
+  const RgbCoefficients irradiance = irradiance_from_radiance(light);
+  RenderParams params = test_params();
+  params.camera.vertical_fov = 0.5;
+  params.show_background = false;
+  const Image plain = draw(sphere_, light, params);
+  params.mark_negative = true;
+  const Image marked = draw(sphere_, light, params);
+  int striped = 0, negative = 0;
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const double nx = ((x + 0.5) / kSize - 0.5) / 0.47, ny = (0.5 - (y + 0.5) / kSize) / 0.47;
+      if (nx * nx + ny * ny > 0.97) continue;
+      const double e = reconstruct(irradiance, {nx, ny, std::sqrt(1 - nx * nx - ny * ny)}).g;
+      const Rgb a = plain.rgb(x, y), b = marked.rgb(x, y);
+      const bool magenta = b.g < 0.5 * b.r;
+      if (e > 0.02) {
+        EXPECT_EQ(a, b) << x << " " << y;
+      }
+      if (e < -0.02) ++negative, striped += magenta;
+      EXPECT_GE(a.g, 0);
+    }
+  ASSERT_GT(negative, 100);
+  EXPECT_NEAR(double(striped) / negative, 0.5, 0.1);
+}
+
 TEST_F(Render, TurningTheLightIsTurningItsCoefficients) {
   const RgbCoefficients light = delta_light(5, {0.48, 0.64, 0.6}, {1, 2, 3});
   for (const double degrees : {90.0, -35.0}) {
