@@ -49,10 +49,6 @@ struct Format {
   std::uint32_t four_cc = 0, dxgi = 0;    // kBlocks: how to say it to another reader
 };
 
-bool is_float(const Format& format) {
-  return format.kind != Kind::kBytes && format.kind != Kind::kBlocks;
-}
-
 // By DXGI_FORMAT.
 std::optional<Format> dxgi_format(std::uint32_t format) {
   constexpr std::array<unsigned, 3> kRgb = {0, 1, 2}, kBgr = {2, 1, 0};
@@ -224,7 +220,13 @@ std::optional<LoadedImage> decode_dds(std::span<const std::byte> bytes, const st
   const bool cube = (header.caps2 & kCube) || (dx10.misc & kDx10Cube);
   const auto format = has_dx10 ? dxgi_format(dx10.format) : legacy_format(header);
   const bool one = !(header.caps2 & kVolume) && (!has_dx10 || (dx10.dimension == kDx10Picture && dx10.array_size <= 1));
-  if (!cube && (!format || !is_float(*format) || !one)) return {};
+  if (!cube && (!format || !one)) {
+    // OpenImageIO 2.4 shifts a mask of no bits for ever.
+    const auto& pixel = header.pixel;
+    if ((pixel.flags & kPixelRgb) && (pixel.red == 0 || pixel.green == 0 || pixel.blue == 0))
+      throw Error(name, "has pixels without masks for red, green and blue", kAcceptedFormats);
+    return {};
+  }
   if (header.caps2 & kVolume || (has_dx10 && dx10.dimension != kDx10Picture))
     throw Error(name, "is no plain cube map", "two-dimensional faces");
   if (dx10.array_size > 1)

@@ -185,7 +185,7 @@ TEST(Dds, SmallerLevelsAreSkipped) {
   EXPECT_NE(error_of(bytes).find("4 levels of 4 x 4 pixels"), std::string::npos);
 }
 
-TEST(Dds, SinglePicturesOfFloatsAreReadAndOthersLeft) {
+TEST(Dds, SinglePicturesAreReadAndUnknownOnesLeft) {
   std::string bytes = legacy(4, 116) + pixels(4, float4, 1);
   for (std::size_t i = 0; i < 4; ++i) bytes[4 * kCaps2 + i] = 0;
   const LoadedImage loaded = decode(bytes);
@@ -193,6 +193,10 @@ TEST(Dds, SinglePicturesOfFloatsAreReadAndOthersLeft) {
   EXPECT_FALSE(loaded.layout);
   bytes[4 * kFourCc] = 36;
   EXPECT_EQ(error_of(bytes), "a.dds: nothing of ours");
+
+  std::string grey = masks(4, 8, {0xff, 0, 0}) + std::string(16, '\1');
+  for (std::size_t i = 0; i < 4; ++i) grey[4 * kCaps2 + i] = 0;
+  EXPECT_NE(error_of(grey).find("has pixels without masks for red, green and blue"), std::string::npos);
 }
 
 TEST(Dds, WhatIsWrongIsSaid) {
