@@ -90,6 +90,17 @@ TEST_F(ToolBadInput, PicturesOfUnknownLayoutOrTooManyPixels) {
   EXPECT_EQ(run_tool({"project", path("odd.exr"), "--layout", "lat-long", "--max-pixels", "4000"}).exit_code, 0);
 }
 
+TEST_F(ToolBadInput, PicturesThatHoldNoLight) {
+  const std::string header = "DDS " + bytes_of(124u, 0x1007u, 4u, 4u, 0u, 0u, 1u) + std::string(44, '\0');
+  const std::string floats = bytes_of(32u, 4u, 116u, 0u, 0u, 0u, 0u, 0u) + bytes_of(0x1008u, 0xfe00u, 0u, 0u, 0u);
+  expect_bad_file(write("short.dds", header + floats + std::string(6 * 16 * 16 - 1, '\0')), "it ends too soon");
+  expect_bad_file(write("half.dds", header), "it ends within its header");
+  expect_bad_file(write("odd.float", std::string(100, '\1')), "has 100 bytes");
+  expect_bad_file(write("noise.float", std::string(12 * 64, '\x7e')), "holds no floats that can be light");
+  expect_bad_file(write("format.hdr", "#?RADIANCE\nFORMAT=ascii\n\n-Y 1 +X 1\n\1\1\1\1"), "the format 'ascii'");
+  expect_refused({"project", "builtin:sky", "--clamp", "1"}, "builtin:sky", "cannot be clamped");
+}
+
 TEST_F(ToolBadInput, Models) {
   for (const char* name : {"a.x", "a.ply", "a"}) expect_bad_model(write(name, ""), "is empty");
   for (const char* name : {"a.x", "a.obj", "a.ply", "a.stl", "a.glb"}) expect_bad_model(write(name, "no model\n"), "");

@@ -29,8 +29,8 @@ void expect_answer_or_refusal(const std::filesystem::path& file) {
 TEST_F(ToolData, DamagedFilesAreAnsweredOrRefused) {
   SHLIGHT_TEST_DATA_OR_SKIP(data);
   int files = 0;
-  for (const char* folder :
-       {"bad/image/oiio", "bad/image/magnum_exr", "bad/mesh/assimp_invalid", "bad/mesh/magnum_stl"})
+  for (const char* folder : {"bad/image/oiio", "bad/image/magnum_exr", "bad/image/magnum_dds",
+                             "bad/mesh/assimp_invalid", "bad/mesh/magnum_stl"})
     for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(data) / folder))
       if (entry.is_regular_file()) {
         expect_answer_or_refusal(entry.path());

@@ -47,6 +47,8 @@ TEST_F(ToolHelp, WrongUsageIsExplained) {
         {{"project", "builtin:axes", "-o", ""}, "--output: the file's name is empty"},
         {{"info"}, "FILE is required"},
         {{"info", "builtin:sky", "--max-pixels", "0"}, "--max-pixels"},
+        {{"info", "builtin:sky", "--clamp", "0"}, "--clamp: '0' is no number from"},
+        {{"info", "builtin:sky", "--clamp", "nan"}, "--clamp: 'nan' is no number from"},
         {{"render", "-o", path("a.jpg")}, "a.jpg' ends neither in .png nor in .exr"},
         {{"render", "-o", png, "--size", "0x0"}, "'0x0' is no size such as 1280x720"},
         {{"render", "-o", png, "--size", "640x480x3"}, "'640x480x3' is no size"},

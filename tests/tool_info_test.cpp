@@ -38,6 +38,22 @@ TEST_F(ToolInfo, Image) {
   EXPECT_EQ(run_json({"info", path("b.exr"), "--layout", "lat-long"})["layout"], "lat-long");
 }
 
+// Half of all directions at 3, clamped to 1; an EXPOSURE that is none.
+TEST_F(ToolInfo, ClampsAndWarnings) {
+  std::string file = "#?RADIANCE\nEXPOSURE=0\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
+  for (int pixel = 0; pixel < 8; ++pixel) file += pixel < 4 ? "\xc0\xc0\xc0\x82" : "\x80\x80\x80\x81";
+  write("a.hdr", file);
+  const auto info = run_json({"info", path("a.hdr"), "--clamp", "1"});
+  EXPECT_EQ(info["warnings"], nlohmann::json({"1 EXPOSURE line without a positive, finite number, ignored"}));
+  EXPECT_EQ(info["max"], 3);
+  EXPECT_EQ(info["clamp"]["pixels_above"], 4);
+  EXPECT_NEAR(info["clamp"]["lost_share"].get<double>(), 0.5, 1e-12);
+  EXPECT_NEAR(info["mean_radiance"][0].get<double>(), 1, 1e-6);
+  const ToolRun project = run({"project", path("a.hdr"), "--clamp", "1"});
+  EXPECT_NE(project.err.find("1 EXPOSURE line without"), std::string::npos) << project;
+  EXPECT_NE(project.err.find("4 pixels above, with 50 % of the light's luminance"), std::string::npos) << project;
+}
+
 TEST_F(ToolInfo, Coefficients) {
   run({"project", "builtin:axes", "--bands", "6", "-o", path("a.json")});
   const auto info = run_json({"info", path("a.json")});

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "shlight/core/error.h"
@@ -16,7 +17,7 @@
 namespace shlight::app {
 
 const char* const kLightHelp =
-    "Picture (.hdr, .exr, …), coefficient file (.json), builtin:sky|studio|axes|thesis, or a formula \"fn:…\"";
+    "Picture (.hdr, .exr, .dds, …), coefficient file (.json), builtin:sky|studio|axes|thesis, or a formula \"fn:…\"";
 const char* const kModelHelp = "Model or scene (.x .obj .ply .stl .off .gltf .glb …), or builtin:sphere|knot|scene";
 
 std::map<std::string, Layout> layouts_by_name() {
@@ -32,6 +33,11 @@ void add_light_options(CLI::App& command, LoadLightParams& params) {
 }
 
 void add_picture_options(CLI::App& command, LoadLightParams& params) {
+  command
+      .add_option("--clamp", params.clamp,
+                  "Cut each channel of the picture at this radiance, and negative ones at 0; says what was lost")
+      ->type_name("MAX")
+      ->check(number_from(std::numeric_limits<float>::min(), std::numeric_limits<float>::max()).description(""));
   command.add_option("--max-pixels", params.image.max_pixels, "Refuse pictures with more pixels")
       ->capture_default_str()
       ->check(CLI::PositiveNumber.description(""));
@@ -52,7 +58,10 @@ LoadedLight load_light_aloud(const std::string& light, const LoadLightParams& pa
   if (info.layout && !params.layout)
     spdlog::info("{}: {} x {} pixels, taken as {}", info.name, info.width, info.height, layout_name(*info.layout));
   for (const std::string& warning : info.warnings) spdlog::warn("{}: {}", info.name, warning);
-  if (!info.pixels.clean()) spdlog::warn("{}: {}", info.name, describe(info.pixels));
+  if (!info.pixels.clean()) spdlog::warn("{}: {}", info.name, describe(info.pixels, info.clamp.has_value()));
+  if (info.clamp)
+    spdlog::info("{}: clamped to {:g}: {} pixels above, with {:.4g} % of the light's luminance; {} pixels negative",
+                 info.name, info.clamp->max, info.clamp->above, 100 * info.clamp->lost_share(), info.clamp->negative);
   return loaded;
 }
 

@@ -49,6 +49,16 @@ ordered_json info_of(const LoadedLight& loaded) {
     json["inf"] = info.pixels.inf;
     json["negative"] = info.pixels.negative;
     json["warnings"] = info.warnings;
+    if (const auto& clamp = info.clamp) {
+      const auto array = [](Rgb c) { return ordered_json{c.r, c.g, c.b}; };
+      json["clamp"] = {{"max", clamp->max},
+                       {"pixels_above", clamp->above},
+                       {"pixels_negative", clamp->negative},
+                       {"total", array(clamp->total)},
+                       {"lost", array(clamp->lost)},
+                       {"gained", array(clamp->gained)},
+                       {"lost_share", clamp->lost_share()}};
+    }
   }
   if (info.bands > 0) json["bands"] = info.bands;
   // L00 tells the mean radiance; degree 1, of its luminance, where most of the light comes from.
@@ -105,8 +115,11 @@ ordered_json info_of_file(const InfoArguments& arguments) {
 std::string words_for(const ordered_json& value) {
   if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
   if (value.is_string()) return value.get<std::string>();
-  if (!value.is_array()) return value.dump();
   std::string text;
+  if (value.is_object())
+    for (const auto& [key, part] : value.items()) text += (text.empty() ? "" : ", ") + key + " " + words_for(part);
+  if (value.is_object()) return text;
+  if (!value.is_array()) return value.dump();
   for (const auto& element : value) text += (text.empty() ? "" : element.is_string() ? "; " : " ") + words_for(element);
   return text.empty() ? "none" : text;
 }

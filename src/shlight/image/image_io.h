@@ -28,9 +28,12 @@ struct LoadedImage {
   std::vector<std::string> warnings;  // a line each: what was odd, and what was made of it
 };
 
-// Reads a picture of any format that OpenImageIO knows into linear Rec. 709. Float and half-float formats are taken to
-// be linear, RGBE decodes m · 2^(e-136), formats of integers are taken to be sRGB. A picture of one channel is grey;
-// alpha is left out. Values are as the file has them, NaN, infinite and negative ones too: see pixel_report.h. Throws
+// Reads a picture into linear Rec. 709: Radiance pictures (rgbe.h), OpenEXR, DDS cube maps (dds.h), raw light probes
+// (raw_float.h), and whatever else OpenImageIO knows. Float and half-float formats are taken to be linear, formats of
+// integers to be sRGB. A picture of one channel is grey; alpha is left out. Of an OpenEXR file: level 0 of the first
+// part with R, G and B, else Y, else a layer's R, G and B, all float or half; what its display window shows, black
+// where there is no data, but an environment map whole; its chromaticities are converted to Rec. 709
+// (chromaticities.h). Values are as the file has them, NaN, infinite and negative ones too: see pixel_report.h. Throws
 // Error.
 LoadedImage load_image(const std::filesystem::path& path, const LoadImageParams& params = {});
 
@@ -39,8 +42,9 @@ LoadedImage load_image(const std::filesystem::path& path, const LoadImageParams&
 Image8 load_image8(const std::filesystem::path& path, const LoadImageParams& params = {});
 Image8 load_image8(std::span<const std::byte> bytes, const std::string& name, const LoadImageParams& params = {});
 
-// Writes linear values as .exr, in 16-bit floats unless a value is too large for them. Whole or not at all; throws
-// Error.
+// Writes linear values as .exr, in 16-bit floats unless a value is too large for them, or as .hdr (encode_rgbe in
+// rgbe.h), which refuses negative values and those that are not finite. An .exr file says where its layout is one of
+// OpenEXR's own. Whole or not at all; throws Error.
 void save_image(const std::filesystem::path& path, const Image& image, std::optional<Layout> layout = {});
 
 // Writes an sRGB picture as .png. Whole or not at all; throws Error.

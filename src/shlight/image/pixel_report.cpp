@@ -53,7 +53,7 @@ void repair_pixels(Image& image) {
     if (!std::isfinite(value)) value = 0;
 }
 
-std::string describe(const PixelReport& report) {
+std::string describe(const PixelReport& report, bool clamped) {
   std::string text;
   const auto add = [&](std::uint64_t count, const std::optional<PixelReport::Location>& first, const char* what,
                        const char* repair) {
@@ -63,7 +63,7 @@ std::string describe(const PixelReport& report) {
   };
   add(report.nan, report.first_nan, "NaN", "taken as 0");
   add(report.inf, report.first_inf, "infinite values", "taken as 0");
-  add(report.negative, report.first_negative, "negative values", "kept");
+  add(report.negative, report.first_negative, "negative values", clamped ? "taken as 0" : "kept");
   return text;
 }
 

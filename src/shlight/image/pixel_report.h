@@ -25,7 +25,8 @@ PixelReport report_pixels(const Image& image);
 // The stated rule: values that are not finite become 0; negative ones are kept.
 void repair_pixels(Image& image);
 
-// One line for people ("2 pixels with NaN (first at 3, 5), now 0"); empty where the report is clean.
-std::string describe(const PixelReport& report);
+// One line for people ("2 pixels with NaN (first at 3, 5), taken as 0"); empty where the report is clean. Says that
+// negative values were kept unless they were clamped.
+std::string describe(const PixelReport& report, bool clamped = false);
 
 }  // namespace shlight

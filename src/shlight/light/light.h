@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "shlight/image/clamp.h"
 #include "shlight/image/environment.h"
 #include "shlight/image/image_io.h"
 #include "shlight/image/pixel_report.h"
@@ -36,6 +37,7 @@ class Light {
 
 struct LoadLightParams {
   std::optional<Layout> layout;  // of pictures; nothing: as the file states it, else told from the picture's shape
+  std::optional<double> clamp;   // of pictures, positive: channels above it are cut, negative ones become 0 (clamp.h)
   LoadImageParams image;
 };
 
@@ -48,6 +50,7 @@ struct LightInfo {
   int width = 0, height = 0;
   PixelReport pixels;
   std::vector<std::string> warnings;  // what was odd about the file, a line each
+  std::optional<ClampReport> clamp;   // where it was asked for
   int bands = 0;                      // of coefficients
 };
 
@@ -58,7 +61,8 @@ struct LoadedLight {
 
 // Makes a light from what a user writes: the path of a picture or of a coefficient file (.json), "builtin:NAME" with
 // optional parameters ("builtin:sky:elevation=20,turbidity=4"), or a formula "fn:…" (formula_light.h). Pixels that are
-// not finite are taken as 0, which info.pixels reports. Throws Error.
+// not finite are taken as 0, which info.pixels reports; only then are they clamped. Throws Error, also where something
+// else than a picture is to be clamped.
 LoadedLight load_light(const std::string& light, const LoadLightParams& params = {});
 
 // Pixels of constant radiance.

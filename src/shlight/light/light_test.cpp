@@ -94,6 +94,40 @@ TEST(LoadLight, AShapeThatTellsNothingNeedsALayout) {
   EXPECT_EQ(load_light((folder / "a.exr").string(), params).info.layout, Layout::kLatLong);
 }
 
+// A constant light clamped to half loses half, whatever the layout, and only pictures can be clamped.
+TEST(LoadLight, ClampedPictures) {
+  const TemporaryFolder folder;
+  LoadLightParams params;
+  params.clamp = 2;
+  for (const Layout layout : {Layout::kLatLong, Layout::kCube, Layout::kOpenExrCube}) {
+    const auto [width, height] = picture_size(layout, size_from_horizon(layout, 64));
+    Image image(width, height);
+    for (float& value : image.values) value = 4;
+    image.set_rgb(1, 1, {4, NAN, -4});
+    save_image(folder / "a.exr", image, layout);
+    params.layout = layout;
+    const auto [light, info] = load_light((folder / "a.exr").string(), params);
+    EXPECT_EQ(info.clamp->above, image.num_pixels());
+    EXPECT_EQ(info.clamp->negative, 1u);
+    EXPECT_NEAR(info.clamp->lost_share(), 0.5, 2e-3);
+    EXPECT_NEAR(info.clamp->lost.r, 8 * 3.141592653589793, 1e-5);
+    EXPECT_EQ(info.pixels.nan, 1u);
+    EXPECT_NEAR(light->project(1)[0].r, 2 * std::sqrt(4 * 3.141592653589793), 1e-5);
+  }
+  params.layout.reset();
+  for (const char* other : {"builtin:sky", "fn:1 + y", "nothing.json"}) EXPECT_THROW(load_light(other, params), Error);
+}
+
+// What a file states comes before what its shape suggests, and after what was asked for.
+TEST(LoadLight, FilesThatStateTheirLayout) {
+  const TemporaryFolder folder;
+  save_image(folder / "a.exr", Image(64, 32), Layout::kOpenExrLatLong);
+  EXPECT_EQ(load_light((folder / "a.exr").string()).info.layout, Layout::kOpenExrLatLong);
+  LoadLightParams params;
+  params.layout = Layout::kLatLong;
+  EXPECT_EQ(load_light((folder / "a.exr").string(), params).info.layout, Layout::kLatLong);
+}
+
 // The nine coefficients published for ten classic probes light as their polynomial does.
 TEST(LoadLight, PublishedTables) {
   const char* data = std::getenv("SHLIGHT_TEST_DATA");

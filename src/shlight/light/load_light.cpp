@@ -38,12 +38,16 @@ LoadedLight load_image_light(const std::string& path, const LoadLightParams& par
   info.pixels = report_pixels(environment.image);
   info.warnings = std::move(loaded.warnings);
   if (info.pixels.nan + info.pixels.inf > 0) repair_pixels(environment.image);
+  if (params.clamp) info.clamp = clamp_radiance(environment, *params.clamp);
   return {std::make_unique<ImageLight>(std::move(environment)), std::move(info)};
 }
 
 }  // namespace
 
 LoadedLight load_light(const std::string& light, const LoadLightParams& params) {
+  const bool picture = !light.starts_with("builtin:") && !light.starts_with("fn:") && !light.ends_with(".json");
+  if (params.clamp && !picture) throw Error(light, "cannot be clamped", "a picture");
+  if (picture) return load_image_light(light, params);
   LightInfo info;
   info.name = light;
   if (light.starts_with("builtin:")) return {make_builtin_light(light.substr(8)), info};
@@ -51,7 +55,6 @@ LoadedLight load_light(const std::string& light, const LoadLightParams& params) 
     info.kind = LightInfo::Kind::kFormula;
     return {make_formula_light(light.substr(3)), info};
   }
-  if (!light.ends_with(".json")) return load_image_light(light, params);
   RgbCoefficients coefficients = load_coefficients(light);
   info.kind = LightInfo::Kind::kCoefficients;
   info.bands = coefficients.bands();
