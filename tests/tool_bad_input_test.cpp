@@ -45,7 +45,7 @@ TEST_F(ToolBadInput, WhatIsNoFile) {
   expect_bad_file(path("missing.hdr"), "no such file");
   expect_bad_file(path("missing.json"), "cannot be read (No such file or directory)");
   expect_bad_file("", "no such file");
-  expect_bad_file(path("folder.hdr"), "is not a regular file");
+  expect_bad_file(path("folder.hdr"), "is a folder without a cube map");
   expect_bad_file(path("folder.json"), "is not a regular file");
   expect_bad_file(path("pipe.exr"), "is not a regular file");
   expect_bad_file(path("pipe.json"), "is not a regular file");

@@ -34,7 +34,7 @@ TEST_F(ToolInfo, Image) {
   EXPECT_EQ(info["max"], 8);
 
   save_image(folder_ / "b.exr", Image(48, 48));
-  EXPECT_EQ(run_json({"info", path("b.exr")})["layout"], "angular-map");
+  EXPECT_EQ(run_json({"info", path("b.exr"), "--layout", "angular-map"})["layout"], "angular-map");
   EXPECT_EQ(run_json({"info", path("b.exr"), "--layout", "lat-long"})["layout"], "lat-long");
 }
 

@@ -75,14 +75,14 @@ TEST_F(ToolProject, BandsAreCutOffOrZero) {
   }
 }
 
-TEST_F(ToolProject, PicturesComeInBothLayouts) {
+TEST_F(ToolProject, LayoutsAreToldOrNamed) {
   const auto axes = make_axes_light();
   save_image(folder_ / "a.exr", axes->lat_long(256));
   EXPECT_EQ(run({"project", path("a.exr"), "-o", path("told.json")}).err,
             "info: " + path("a.exr") + ": 256 x 128 pixels, taken as lat-long\n");
   EXPECT_EQ(run({"project", path("a.exr"), "-o", path("named.json"), "--layout", "lat-long"}).err, "");
   EXPECT_EQ(text_of(path("told.json")), text_of(path("named.json")));
-  run({"project", path("a.exr"), "-o", path("other.json"), "--layout", "angular-map"});
+  run({"project", path("a.exr"), "-o", path("other.json"), "--layout", "openexr-lat-long"});
   EXPECT_NE(text_of(path("told.json")), text_of(path("other.json")));
 }
 
