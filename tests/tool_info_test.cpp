@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "shlight/light/builtin_light.h"
 #include "tool_test_util.h"
@@ -30,6 +31,7 @@ TEST_F(ToolInfo, Image) {
   EXPECT_EQ(info["nan"], 3);
   EXPECT_EQ(info["inf"], 2);
   EXPECT_EQ(info["negative"], 1);
+  EXPECT_NE(info["bad_pixels"].get<std::string>().find("5, 6"), std::string::npos) << info["bad_pixels"];
   EXPECT_EQ(info["min"], -2);
   EXPECT_EQ(info["max"], 8);
 
@@ -49,6 +51,7 @@ TEST_F(ToolInfo, ClampsAndWarnings) {
   EXPECT_EQ(info["clamp"]["pixels_above"], 4);
   EXPECT_NEAR(info["clamp"]["lost_share"].get<double>(), 0.5, 1e-12);
   EXPECT_NEAR(info["mean_radiance"][0].get<double>(), 1, 1e-6);
+  EXPECT_NEAR(info["energy"][0].get<double>(), 4 * std::numbers::pi, 1e-5);
   const ToolRun project = run({"project", path("a.hdr"), "--clamp", "1"});
   EXPECT_NE(project.err.find("1 EXPOSURE line without"), std::string::npos) << project;
   EXPECT_NE(project.err.find("4 pixels above, with 50 % of the light's luminance"), std::string::npos) << project;

@@ -48,6 +48,7 @@ ordered_json info_of(const LoadedLight& loaded) {
     json["nan"] = info.pixels.nan;
     json["inf"] = info.pixels.inf;
     json["negative"] = info.pixels.negative;
+    if (!info.pixels.clean()) json["bad_pixels"] = describe(info.pixels);
     json["warnings"] = info.warnings;
     if (const auto& clamp = info.clamp) {
       const auto array = [](Rgb c) { return ordered_json{c.r, c.g, c.b}; };
@@ -65,6 +66,9 @@ ordered_json info_of(const LoadedLight& loaded) {
   const RgbCoefficients c = light->project(2);
   const Rgb mean = 1 / std::sqrt(4 * std::numbers::pi) * c[0];
   json["mean_radiance"] = {mean.r, mean.g, mean.b};
+  // The integral of the radiance over all directions.
+  const double sphere = 4 * std::numbers::pi;
+  json["energy"] = {sphere * mean.r, sphere * mean.g, sphere * mean.b};
   const Vec3d l1 = {luminance(c[3]), luminance(c[1]), luminance(c[2])};
   const double length = std::sqrt(dot(l1, l1));
   if (length > 1e-9 * std::abs(luminance(c[0])))
