@@ -71,7 +71,8 @@ ordered_json info_of(const LoadedLight& loaded) {
   json["energy"] = {sphere * mean.r, sphere * mean.g, sphere * mean.b};
   const Vec3d l1 = {luminance(c[3]), luminance(c[1]), luminance(c[2])};
   const double length = std::sqrt(dot(l1, l1));
-  if (length > 1e-9 * std::abs(luminance(c[0])))
+  // Of a light that is nearly the same from everywhere, noise would have the say.
+  if (length > 1e-3 * std::abs(luminance(c[0])))
     json["dominant_direction"] = {l1.x / length, l1.y / length, l1.z / length};
   return json;
 }
