@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shlight/sh/basis.h"
+#include "shlight/sh/kernel.h"
 
 namespace shlight {
 
@@ -28,10 +29,84 @@ double cosine_lobe(int l) {
 }
 
 RgbCoefficients irradiance_from_radiance(const RgbCoefficients& radiance) {
-  RgbCoefficients irradiance = radiance;
-  for (int l = 0; l < radiance.bands(); ++l)
-    for (int m = -l; m <= l; ++m) irradiance.at(l, m) = cosine_lobe_hat(l) * radiance.at(l, m);
-  return irradiance;
+  return convolve(make_cosine_power_kernel(radiance.bands(), 1), radiance);
+}
+
+RgbCoefficients convolve(std::span<const double> kernel, const RgbCoefficients& coefficients) {
+  assert(static_cast<int>(kernel.size()) >= coefficients.bands());
+  RgbCoefficients result = coefficients;
+  for (int l = 0; l < coefficients.bands(); ++l)
+    for (int m = -l; m <= l; ++m) result.at(l, m) = kernel[static_cast<std::size_t>(l)] * coefficients.at(l, m);
+  return result;
+}
+
+void add_zonal(std::span<const double> kernel, Vec3d axis, Rgb value, RgbCoefficients& coefficients) {
+  const int bands = coefficients.bands();
+  assert(static_cast<int>(kernel.size()) >= bands);
+  std::vector<double> basis(coefficients.size());
+  eval_basis(bands, axis, std::span<double>(basis));
+  for (int l = 0; l < bands; ++l)
+    for (int m = -l; m <= l; ++m)
+      coefficients.at(l, m) +=
+          kernel[static_cast<std::size_t>(l)] * basis[static_cast<std::size_t>(coefficient_index(l, m))] * value;
+}
+
+std::vector<Rgb> zonal_part(Vec3d axis, const RgbCoefficients& coefficients) {
+  const int bands = coefficients.bands();
+  std::vector<double> basis(coefficients.size());
+  eval_basis(bands, axis, std::span<double>(basis));
+  std::vector<Rgb> kernel(static_cast<std::size_t>(bands));
+  for (int l = 0; l < bands; ++l)
+    for (int m = -l; m <= l; ++m)
+      kernel[static_cast<std::size_t>(l)] +=
+          4 * pi / (2 * l + 1) * basis[static_cast<std::size_t>(coefficient_index(l, m))] * coefficients.at(l, m);
+  return kernel;
+}
+
+namespace {
+
+// ∫ (luminance)² of the zonal part about an axis, without the mean, which every axis keeps: Σ_l (2l+1)/4π k̂_l².
+double zonal_power(Vec3d axis, const RgbCoefficients& coefficients) {
+  const std::vector<Rgb> kernel = zonal_part(axis, coefficients);
+  double power = 0;
+  for (std::size_t l = 1; l < kernel.size(); ++l)
+    power += static_cast<double>(2 * l + 1) / (4 * pi) * std::pow(luminance(kernel[l]), 2);
+  return power;
+}
+
+}  // namespace
+
+Vec3d best_zonal_axis(const RgbCoefficients& coefficients) {
+  const auto normalized = [](Vec3d v) { return 1 / std::sqrt(dot(v, v)) * v; };
+  // The power is a harmonic function of twice the degree, the same at both ends of an axis: a hemisphere sampled some
+  // times finer than its highest degree turns cannot miss the top's surroundings.
+  const int rows = 4 * coefficients.bands();
+  Vec3d best = {0, 0, 1};
+  double best_power = zonal_power(best, coefficients);
+  const auto attempt = [&](Vec3d axis) {
+    const double power = zonal_power(axis, coefficients);
+    if (!(power > best_power)) return false;
+    best = axis, best_power = power;
+    return true;
+  };
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < 4 * rows; ++j) {
+      const double z = (i + 0.5) / rows, s = std::sqrt(1 - z * z), phi = 2 * pi * j / (4 * rows);
+      attempt({s * std::cos(phi), s * std::sin(phi), z});
+    }
+  // Then steps to the sides, halved where none leads up. At the top the power is flat, so that half of its digits,
+  // about 1e-8 radians, are all that it can tell.
+  for (double step = 1.0 / (rows + 1); step > 1e-9;) {
+    const Vec3d x = normalized(cross(best, std::abs(best.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0}));
+    const Vec3d y = cross(best, x), here = best;
+    bool better = false;
+    for (const Vec3d side : {x, y, -x, -y}) better = better || attempt(normalized(here + step * side));
+    if (!better) step /= 2;
+  }
+  if (coefficients.bands() < 2) return best;
+  const Vec3d linear = {luminance(coefficients.at(1, 1)), luminance(coefficients.at(1, -1)),
+                        luminance(coefficients.at(1, 0))};
+  return dot(linear, best) < 0 ? -best : best;
 }
 
 std::array<double, 5> irradiance_polynomial_constants() {
@@ -51,24 +126,7 @@ Rgb eval_irradiance_polynomial(const RgbCoefficients& radiance, Vec3d n) {
 }
 
 void add_disc(Vec3d axis, double half_angle, Rgb radiance, RgbCoefficients& coefficients) {
-  const int bands = coefficients.bands();
-  std::vector<double> basis(coefficients.size());
-  eval_basis(bands, axis, std::span<double>(basis));
-  const double c = std::cos(half_angle);
-  // P_{l−1}, P_l and P_{l+1} at cos α; the l = 0 integral is 1 − cos α, written so that small discs keep their digits.
-  double before = 1, here = c;
-  for (int l = 0; l < bands; ++l) {
-    double integral = 2 * std::pow(std::sin(half_angle / 2), 2);
-    if (l > 0) {
-      const double after = ((2 * l + 1) * c * here - l * before) / (l + 1);
-      integral = (before - after) / (2 * l + 1);
-      before = here;
-      here = after;
-    }
-    // Zonal coefficient 2π K_l^0 ∫ P_l, times √(4π/(2l+1)) Y_lm(axis) to turn it there; K_l^0 √(4π/(2l+1)) = 1.
-    for (int m = -l; m <= l; ++m)
-      coefficients.at(l, m) += 2 * pi * integral * basis[static_cast<std::size_t>(coefficient_index(l, m))] * radiance;
-  }
+  add_zonal(make_cap_kernel(coefficients.bands(), half_angle), axis, radiance, coefficients);
 }
 
 }  // namespace shlight

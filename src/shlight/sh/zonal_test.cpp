@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "shlight/sh/basis.h"
+#include "shlight/sh/kernel.h"
 #include "shlight/sh/project.h"
 #include "shlight/sh/sphere_samples.h"
 
@@ -90,6 +92,70 @@ TEST(Zonal, HemisphereLightsWhatFacesIt) {
   EXPECT_NEAR(reconstruct(irradiance, {0, 1, 0}).r, pi, 2e-3);
   EXPECT_NEAR(reconstruct(irradiance, {0, -1, 0}).r, 0, 2e-3);
   EXPECT_NEAR(reconstruct(irradiance, {1, 0, 0}).r, pi / 2, 1e-12);
+}
+
+// A lobe turned to an axis is the delta from there convolved with it, and its values depend on the angle to it alone.
+TEST(Zonal, ATurnedLobeIsAConvolvedDelta) {
+  constexpr int kBands = 40;
+  const Vec3d axis = {.36, .48, .80};
+  const std::vector<double> kernel = make_von_mises_fisher_kernel(kBands, 20);
+  RgbCoefficients delta(kBands), lobe(kBands);
+  add_delta(axis, {1, 2, 3}, delta);
+  add_zonal(kernel, axis, {1, 2, 3}, lobe);
+  const RgbCoefficients convolved = convolve(kernel, delta);
+  for (std::size_t i = 0; i < lobe.size(); ++i) EXPECT_NEAR(lobe[i].b, convolved[i].b, 1e-15) << "coefficient " << i;
+  // κ = 20 leaves less than 1e-12 above 40 bands.
+  for (const Vec3d d : make_sphere_samples(0, 6, 3).directions) {
+    const double exact = 20 * std::exp(20 * (dot(d, axis) - 1)) / (2 * pi * -std::expm1(-40.0));
+    EXPECT_NEAR(reconstruct(lobe, d).r, exact, 1e-11);
+  }
+}
+
+// Convolutions commute and compose: Henyey-Greenstein's g, twice, is g².
+TEST(Zonal, ConvolutionsCompose) {
+  RgbCoefficients light(12);
+  add_delta({.36, .48, .80}, {1, 2, 3}, light);
+  const auto g = make_henyey_greenstein_kernel(12, 0.6), g2 = make_henyey_greenstein_kernel(12, 0.36);
+  const RgbCoefficients twice = convolve(g, convolve(g, light)), once = convolve(g2, light);
+  for (std::size_t i = 0; i < light.size(); ++i) EXPECT_NEAR(twice[i].g, once[i].g, 1e-15);
+}
+
+TEST(Zonal, TheZonalPartOfALobeIsTheLobe) {
+  constexpr int kBands = 9;
+  const Vec3d axis = {.8, -.6, 0};
+  const std::vector<double> kernel = make_cosine_power_kernel(kBands, 5);
+  RgbCoefficients lobe(kBands);
+  add_zonal(kernel, axis, {1, 0, 2}, lobe);
+  const std::vector<Rgb> part = zonal_part(axis, lobe);
+  for (std::size_t l = 0; l < part.size(); ++l) {
+    EXPECT_NEAR(part[l].r, kernel[l], 1e-15) << "degree " << l;
+    EXPECT_NEAR(part[l].b, 2 * kernel[l], 1e-14) << "degree " << l;
+  }
+}
+
+// A projection: what is left has no zonal part about that axis.
+TEST(Zonal, WhatTheZonalPartLeavesHasNone) {
+  constexpr int kBands = 6;
+  RgbCoefficients light(kBands);
+  for (std::size_t i = 0; i < light.size(); ++i) light[i] = {std::sin(1.0 + double(i)), 1, std::cos(2.0 * double(i))};
+  const Vec3d axis = {.36, .48, .80};
+  const std::vector<Rgb> part = zonal_part(axis, light);
+  std::vector<double> red;
+  for (const Rgb k : part) red.push_back(k.r);
+  RgbCoefficients rest = light;
+  add_zonal(red, axis, {-1, 0, 0}, rest);
+  for (const Rgb k : zonal_part(axis, rest)) EXPECT_NEAR(k.r, 0, 1e-14);
+}
+
+TEST(Zonal, BestAxisIsTheLobes) {
+  for (const Vec3d axis : {Vec3d{.36, .48, .80}, {.36, -.48, -.80}, {0, 0, -1}, {1, 0, 0}}) {
+    RgbCoefficients lobe(7);
+    add_zonal(make_cosine_power_kernel(7, 30), axis, {1, 2, 0}, lobe);
+    lobe[0] += Rgb{5, 5, 5};
+    // Half of a double's digits: the power is flat at its top.
+    EXPECT_NEAR(dot(best_zonal_axis(lobe), axis), 1, 1e-14);
+  }
+  EXPECT_EQ(best_zonal_axis(RgbCoefficients(1)), (Vec3d{0, 0, 1}));
 }
 
 }  // namespace
