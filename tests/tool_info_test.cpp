@@ -72,6 +72,19 @@ TEST_F(ToolInfo, Formula) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(info["dominant_direction"][c].get<double>(), c == 1, 1e-12);
 }
 
+TEST_F(ToolInfo, Sun) {
+  const auto sun = run_json({"info", "builtin:sky:elevation=40,azimuth=-30"})["sun"];
+  EXPECT_NEAR(sun["elevation"].get<double>(), 40, 1e-9);
+  EXPECT_NEAR(sun["azimuth"].get<double>(), -30, 1e-9);
+  EXPECT_NEAR(sun["direction"][1].get<double>(), std::sin(40 * 3.141592653589793 / 180), 1e-12);
+  EXPECT_GT(sun["irradiance"][0].get<double>(), sun["irradiance"][2].get<double>());
+  EXPECT_GT(sun["share"].get<double>(), 0.2);
+  EXPECT_LT(sun["share"].get<double>(), 0.8);
+  EXPECT_FALSE(run_json({"info", "builtin:studio"}).contains("sun"));
+  const ToolRun words = run({"info", "builtin:sky:elevation=40"});
+  EXPECT_NE(words.out.find("elevation 40, irradiance "), std::string::npos) << words;
+}
+
 TEST_F(ToolInfo, Builtin) {
   for (const char* light : {"builtin:sky", "builtin:studio", "builtin:axes", "builtin:thesis"})
     EXPECT_EQ(run_json({"info", light})["kind"], "builtin") << light;

@@ -165,6 +165,39 @@ TEST_F(ToolProject, RotateTurnsTheLight) {
     EXPECT_EQ(run_tool({"project", "builtin:sky", "--rotate", wrong}).exit_code, 2) << wrong;
 }
 
+TEST_F(ToolProject, SplitsTheSunOff) {
+  const ToolRun both = run({"project", "builtin:sky:elevation=20,azimuth=90", "--split-sun", "--rotate", "0,90,0",
+                            "--json", "-o", path("a.json")});
+  EXPECT_EQ(both.out, text_of(path("a.json")));
+  EXPECT_NE(both.err.find("elevation 20.00 degrees, irradiance "), std::string::npos) << both.err;
+  const CoefficientFile file = load_coefficient_file(path("a.json"));
+  ASSERT_TRUE(file.sun);
+  // About +Y by 90°, from +X to −Z, and the rest with it.
+  const double degree = std::numbers::pi / 180;
+  EXPECT_NEAR(file.sun->direction.y, std::sin(20 * degree), 1e-12);
+  EXPECT_NEAR(file.sun->direction.z, -std::cos(20 * degree), 1e-12);
+  const RgbCoefficients whole =
+      rotate(rotation_about_y(90 * degree), load_light("builtin:sky:elevation=20,azimuth=90").light->project(3));
+  const RgbCoefficients again = load_coefficients(path("a.json"));
+  for (std::size_t i = 0; i < whole.size(); ++i) EXPECT_NEAR(again[i].g, whole[i].g, 1e-4 * whole[0].g) << i;
+  // The file is a light like any other, with its sun in it or not.
+  run({"project", path("a.json"), "-o", path("whole.json")});
+  EXPECT_FALSE(load_coefficient_file(path("whole.json")).sun);
+  EXPECT_EQ(load_coefficients(path("whole.json")), again);
+  run({"project", path("a.json"), "--split-sun", "-o", path("same.json")});
+  EXPECT_EQ(text_of(path("same.json")), text_of(path("a.json")));
+  // A window smooths what is left, not the sun.
+  run({"project", path("a.json"), "--split-sun", "--window", "hann:2", "-o", path("smooth.json")});
+  EXPECT_EQ(load_coefficient_file(path("smooth.json")).sun->irradiance, file.sun->irradiance);
+  EXPECT_EQ(load_coefficient_file(path("smooth.json")).coefficients,
+            apply_window(Window::kHann, 0.5, file.coefficients));
+
+  const ToolRun none = run({"project", "builtin:studio", "--split-sun", "-o", path("b.json")});
+  EXPECT_NE(none.err.find("builtin:studio: has no sun"), std::string::npos) << none.err;
+  EXPECT_FALSE(load_coefficient_file(path("b.json")).sun);
+  EXPECT_EQ(load_coefficients(path("b.json")), load_light("builtin:studio").light->project(3));
+}
+
 TEST_F(ToolProject, WindowsTakeTheRingingAway) {
   // A low sun: cut off after three bands, its irradiance is negative on the far side.
   RgbCoefficients sun(3);

@@ -51,6 +51,11 @@ void add_shape_options(CLI::App& command, LightShape& shape);
 // The windowed coefficients; says on stderr what an automatic window did.
 RgbCoefficients apply_window(const LightShape& shape, const RgbCoefficients& coefficients);
 
+// "azimuth -125.0, elevation 30.0, irradiance 1 2 3, 62.1 % of the light"; `all` is ∫ L of the whole light.
+std::string describe_sun(const Sun& sun, Rgb all);
+// As the commands print it in JSON: direction, azimuth and elevation in degrees, irradiance, share of the luminance.
+nlohmann::ordered_json json_of_sun(const Sun& sun, Rgb all);
+
 // Numbers in [low, high]; unlike CLI::Range, it does not take NaN for one.
 CLI::Validator number_from(double low, double high);
 

@@ -74,6 +74,8 @@ ordered_json info_of(const LoadedLight& loaded) {
   // Of a light that is nearly the same from everywhere, noise would have the say.
   if (length > 1e-3 * std::abs(luminance(c[0])))
     json["dominant_direction"] = {l1.x / length, l1.y / length, l1.z / length};
+  if (const auto split = light->split_sun())
+    json["sun"] = json_of_sun(split->sun, std::sqrt(4 * std::numbers::pi) * c[0]);
   return json;
 }
 

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -60,7 +62,31 @@ bool is_automatic(const std::string& window) {
   return window == "auto" || window == "auto-radiance";
 }
 
+// Azimuth and elevation in degrees, as the built-in sky takes them.
+struct Angles {
+  double azimuth, elevation;
+};
+Angles angles_of(Vec3d d) {
+  return {std::atan2(d.x, -d.z) / kDegree, std::asin(std::clamp(d.y, -1.0, 1.0)) / kDegree};
+}
+
 }  // namespace
+
+std::string describe_sun(const Sun& sun, Rgb all) {
+  const auto [azimuth, elevation] = angles_of(sun.direction);
+  return fmt::format("azimuth {:.2f}, elevation {:.2f} degrees, irradiance {:.4g} {:.4g} {:.4g}, {:.1f} % of the light",
+                     azimuth, elevation, sun.irradiance.r, sun.irradiance.g, sun.irradiance.b,
+                     100 * luminance(sun.irradiance) / luminance(all));
+}
+
+nlohmann::ordered_json json_of_sun(const Sun& sun, Rgb all) {
+  const auto [azimuth, elevation] = angles_of(sun.direction);
+  return {{"direction", {sun.direction.x, sun.direction.y, sun.direction.z}},
+          {"azimuth", azimuth},
+          {"elevation", elevation},
+          {"irradiance", {sun.irradiance.r, sun.irradiance.g, sun.irradiance.b}},
+          {"share", luminance(sun.irradiance) / luminance(all)}};
+}
 
 void add_shape_options(CLI::App& command, LightShape& shape) {
   command

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "command.h"
 #include "shlight/core/error.h"
@@ -23,6 +25,7 @@ struct ProjectArguments {
   std::uint64_t seed = 1;
   int threads = 0;
   std::filesystem::path output;
+  bool split_sun = false;
   bool json = false;
 };
 
@@ -55,13 +58,23 @@ std::string table_of(const RgbCoefficients& coefficients) {
 
 void run_project(const ProjectArguments& arguments) {
   const LoadedLight loaded = load_light_aloud(arguments.light, arguments.load);
-  const RgbCoefficients projected = project(*loaded.light, arguments);
+  std::optional<SunSplit> split;
+  if (arguments.split_sun) split = loaded.light->split_sun(arguments.threads);
+  const RgbCoefficients projected = project(split ? *split->rest : *loaded.light, arguments);
   const RgbCoefficients coefficients = apply_window(arguments.shape, rotate(arguments.shape.rotation, projected));
+  std::optional<Sun> sun;
+  if (split) {
+    sun = Sun{arguments.shape.rotation(split->sun.direction), split->sun.irradiance};
+    spdlog::info("sun: {}", describe_sun(*sun, sun->irradiance + std::sqrt(4 * std::numbers::pi) * projected[0]));
+  } else if (arguments.split_sun) {
+    spdlog::warn("{}: has no sun, nothing small that outshines the rest; all of it is in the coefficients",
+                 loaded.info.name);
+  }
   if (loaded.info.bands > 0 && loaded.info.bands < arguments.bands)
     spdlog::warn("{}: holds {} bands; those above are zero", loaded.info.name, loaded.info.bands);
-  if (!arguments.output.empty()) save_coefficients(arguments.output, coefficients);
+  if (!arguments.output.empty()) save_coefficients(arguments.output, coefficients, sun);
   if (arguments.json)
-    print_result(format_coefficients(coefficients));
+    print_result(format_coefficients(coefficients, sun));
   else if (arguments.output.empty())
     print_result(table_of(coefficients));
 }
@@ -77,6 +90,9 @@ void add_project(CLI::App& program, Run& run) {
       ->check(CLI::Range(1, 256).description("1 to 256"));
   add_light_options(*command, arguments->load);
   add_shape_options(*command, arguments->shape);
+  command->add_flag(
+      "--split-sun", arguments->split_sun,
+      "Take the sun out: its direction and irradiance go into the file, the coefficients are of the rest");
   command->add_option("--method", arguments->method, "Exact integration, or the thesis's random samples")
       ->capture_default_str()
       ->check(CLI::IsMember({"exact", "monte-carlo"}));
@@ -93,6 +109,7 @@ void add_project(CLI::App& program, Run& run) {
   command->add_flag("--json", arguments->json, "Print the coefficient file on stdout");
   command->footer(
       "Examples:\n  shlight project venice.hdr --bands 3 -o venice.json\n"
+      "  shlight project noon.hdr --split-sun -o noon.json\n"
       "  shlight project \"fn:max(0, 5*cos(theta)-4)\" --bands 4 --method monte-carlo --samples 10000");
   command->callback([arguments, &run] { run = [arguments] { run_project(*arguments); }; });
 }

@@ -25,6 +25,24 @@ TEST(CoefficientFile, RoundTripIsExact) {
   EXPECT_EQ(load_coefficients(folder / "a.json"), c);
 }
 
+TEST(CoefficientFile, ASunStandsBesideTheCoefficients) {
+  const TemporaryFolder folder;
+  const RgbCoefficients c = some_coefficients();
+  const Sun sun = {{.36, .48, .80}, {1e5, 2.5, 0}};
+  save_coefficients(folder / "a.json", c, sun);
+  const CoefficientFile file = load_coefficient_file(folder / "a.json");
+  EXPECT_EQ(file.coefficients, c);
+  ASSERT_TRUE(file.sun);
+  EXPECT_EQ(file.sun->direction, sun.direction);
+  EXPECT_EQ(file.sun->irradiance, sun.irradiance);
+  // Who asks for coefficients alone gets all of the light.
+  RgbCoefficients both = c;
+  add_sun(sun, both);
+  EXPECT_EQ(load_coefficients(folder / "a.json"), both);
+  save_coefficients(folder / "a.json", c);
+  EXPECT_FALSE(load_coefficient_file(folder / "a.json").sun);
+}
+
 // One edit of a good file each, and a word of the error that must follow.
 TEST(CoefficientFile, RefusesDamagedFiles) {
   const TemporaryFolder folder;
@@ -53,6 +71,10 @@ TEST(CoefficientFile, RefusesDamagedFiles) {
       {edited("[0.0,", "[1e999,"), "JSON"},
       {edited("\"coefficients\": [", "\"coefficients\": 7, \"x\": ["), "has 0 entries"},
       {std::string(100000, '['), "is no JSON"},
+      {edited("\"bands\": 4", "\"bands\": 4, \"sun\": null"), "\"sun\" is null"},
+      {edited("\"bands\": 4", "\"bands\": 4, \"sun\": {\"direction\": [0, 1, 0]}"), "\"irradiance\": [r, g, b]}"},
+      {edited("\"bands\": 4", "\"bands\": 4, \"sun\": {\"direction\": [0, 2, 0], \"irradiance\": [1, 1, 1]}"),
+       "of length 1"},
   };
   for (const auto& [text, expected] : files) {
     write_file(folder / "a.json", text);

@@ -11,10 +11,13 @@
 #include "shlight/image/image_io.h"
 #include "shlight/image/pixel_report.h"
 #include "shlight/image/resample.h"
+#include "shlight/light/sun.h"
 #include "shlight/sh/coefficients.h"
 #include "shlight/sh/project.h"
 
 namespace shlight {
+
+struct SunSplit;
 
 // Light from infinitely far away: radiance as a function of the direction it comes from.
 class Light {
@@ -33,6 +36,14 @@ class Light {
 
   // The light as a lat-long picture: its own where it is one, else of `width` x `width`/2 pixels.
   virtual Image lat_long(int width, int threads = 0) const;
+
+  // The light's sun and the light without it, as sun.h defines them; nothing where it has none. Formulas have none.
+  virtual std::optional<SunSplit> split_sun(int threads = 0) const;
+};
+
+struct SunSplit {
+  Sun sun;
+  std::unique_ptr<Light> rest;
 };
 
 struct LoadLightParams {
@@ -73,24 +84,30 @@ class ImageLight : public Light {
   RgbCoefficients project(int bands, int threads) const override;
   Image picture(const MakePictureParams& params, const Progress& progress) const override;
   Image lat_long(int width, int threads) const override;
+  std::optional<SunSplit> split_sun(int threads) const override;
   const Environment& environment() const { return environment_; }
 
  private:
   Environment environment_;
 };
 
-// The function that coefficients stand for, negative radiance and all.
+// The function that coefficients stand for, negative radiance and all, and, where there is one, a sun beside it: a
+// delta light to project(), a disc of the sun's size to radiance().
 class CoefficientLight : public Light {
  public:
-  explicit CoefficientLight(RgbCoefficients coefficients) : coefficients_(std::move(coefficients)) {}
+  explicit CoefficientLight(RgbCoefficients coefficients, std::optional<Sun> sun = {})
+      : coefficients_(std::move(coefficients)), sun_(sun) {}
   Rgb radiance(Vec3d direction) const override;
   RgbCoefficients project(int bands, int threads) const override;
+  std::optional<SunSplit> split_sun(int threads) const override;
 
  private:
   RgbCoefficients coefficients_;
+  std::optional<Sun> sun_;
 };
 
-// A function and, on top of it, discs of uniform radiance, which are projected in closed form however small they are.
+// A function and, on top of it, discs and polygons of uniform radiance, which are projected in closed form however
+// small they are.
 class FunctionLight : public Light {
  public:
   struct Disc {
@@ -98,15 +115,23 @@ class FunctionLight : public Light {
     double half_angle = 0;  // radians
     Rgb radiance;
   };
-  explicit FunctionLight(SphereFunction function, std::vector<Disc> discs = {});
+  // A lamp that shines to both sides, as add_polygon of area_light.h takes it.
+  struct Polygon {
+    std::vector<Vec3d> vertices;
+    Rgb radiance;
+  };
+  explicit FunctionLight(SphereFunction function, std::vector<Disc> discs = {}, std::vector<Polygon> polygons = {});
   Rgb radiance(Vec3d direction) const override;
   RgbCoefficients project(int bands, int threads) const override;
   Image picture(const MakePictureParams& params, const Progress& progress) const override;
+  // The brightest disc that is small enough for a sun.
+  std::optional<SunSplit> split_sun(int threads) const override;
 
  private:
   SphereFunction function_;
   std::vector<Disc> discs_;
   std::vector<double> squared_chords_;  // of the discs' edges to their axes
+  std::vector<Polygon> polygons_;
 };
 
 }  // namespace shlight

@@ -70,6 +70,27 @@ TEST(LoadLight, CoefficientFilesAreLights) {
   EXPECT_NEAR(light->radiance({0, 1, 0}).g, 2 * 9 / (4 * 3.141592653589793), 1e-12);
 }
 
+// A file with a sun is both of its parts at any number of bands, and shows the sun in the sky.
+TEST(LoadLight, CoefficientFilesWithASunAreBoth) {
+  const TemporaryFolder folder;
+  const auto sky = make_sky_light({});
+  const auto split = sky->split_sun();
+  ASSERT_TRUE(split);
+  save_coefficients(folder / "a.json", split->rest->project(3), split->sun);
+  const auto light = load_light((folder / "a.json").string()).light;
+  const RgbCoefficients exact = sky->project(3), both = light->project(3);
+  // A delta light for a disc of 0.27°.
+  for (std::size_t i = 0; i < exact.size(); ++i) EXPECT_NEAR(both[i].g, exact[i].g, 1e-4 * exact[0].g) << i;
+  EXPECT_EQ(resize_bands(light->project(8), 3), both);
+  EXPECT_GT(std::abs(light->project(8).at(7, 0).g), 0.01);
+  const Vec3d d = split->sun.direction;
+  EXPECT_NEAR(light->radiance(d).g / sky->radiance(d).g, 1, 1e-3);
+  const auto again = light->split_sun();
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->sun.irradiance, split->sun.irradiance);
+  EXPECT_EQ(again->rest->project(3), split->rest->project(3));
+}
+
 TEST(LoadLight, PixelsThatAreNotFiniteAreReportedAndTakenAsZero) {
   const TemporaryFolder folder;
   Image image(64, 32);

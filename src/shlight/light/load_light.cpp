@@ -55,10 +55,10 @@ LoadedLight load_light(const std::string& light, const LoadLightParams& params) 
     info.kind = LightInfo::Kind::kFormula;
     return {make_formula_light(light.substr(3)), info};
   }
-  RgbCoefficients coefficients = load_coefficients(light);
+  auto [coefficients, sun] = load_coefficient_file(light);
   info.kind = LightInfo::Kind::kCoefficients;
   info.bands = coefficients.bands();
-  return {std::make_unique<CoefficientLight>(std::move(coefficients)), info};
+  return {std::make_unique<CoefficientLight>(std::move(coefficients), sun), info};
 }
 
 }  // namespace shlight

@@ -14,9 +14,8 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kDegree = pi / 180;
-constexpr double kUnitsPerKilocandela = 0.1;        // of radiance, a kcd/m²
-constexpr double kSunHalfAngle = 0.2665 * kDegree;  // seen from the earth
-constexpr double kSunLuminance = 1.6e6;             // kcd/m², outside of the atmosphere
+constexpr double kUnitsPerKilocandela = 0.1;  // of radiance, a kcd/m²
+constexpr double kSunLuminance = 1.6e6;       // kcd/m², outside of the atmosphere
 
 // The distribution of Perez et al.: A … E of one quantity [1, eq. 3].
 struct Perez {

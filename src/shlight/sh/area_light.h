@@ -32,8 +32,8 @@ enum class Sides { kFront, kBoth };
 // Adds a polygon. Its front is the side from which its vertices run counter-clockwise. It is planar, of any number of
 // vertices, convex or not; or spherical, which is the same with unit vertices in one hemisphere, of any radii: the
 // edges are great circles seen from the origin. Where its boundary goes around twice it counts twice; fewer than three
-// vertices cover nothing. In closed form, degree 0 by [4]; to about 1e-15 · radiance absolutely at 10 bands, 1e-14
-// at 32. O(bands³) an edge.
+// vertices cover nothing. In closed form, degree 0 by [4]; right to 2e-15 · radiance up to 48 bands, to 1e-14 at
+// 64, however small the polygon is. O(bands³) an edge.
 void add_polygon(std::span<const Vec3d> vertices, Sides sides, Rgb radiance, RgbCoefficients& coefficients);
 
 // Whether the polygon covers a direction, seen from the origin.
