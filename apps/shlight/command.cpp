@@ -17,7 +17,8 @@
 namespace shlight::app {
 
 const char* const kLightHelp =
-    "Picture (.hdr, .exr, .dds, …), coefficient file (.json), builtin:sky|studio|axes|thesis, or a formula \"fn:…\"";
+    "Picture (.hdr, .exr, .dds, …), coefficient file (.json), builtin:sky|studio|panel|axes|thesis, or a formula "
+    "\"fn:…\"";
 const char* const kModelHelp = "Model or scene (.x .obj .ply .stl .off .gltf .glb …), or builtin:sphere|knot|scene";
 
 std::map<std::string, Layout> layouts_by_name() {

@@ -16,8 +16,8 @@ using std::numbers::pi;
 
 constexpr double kDegree = pi / 180;
 constexpr const char* kAccepted =
-    "builtin:sky, builtin:sky:elevation=0…90,azimuth=…,turbidity=1.7…10,ground=0…1, builtin:studio, builtin:axes or "
-    "builtin:thesis";
+    "builtin:sky, builtin:sky:elevation=0…90,azimuth=…,turbidity=1.7…10,ground=0…1, builtin:studio, "
+    "builtin:panel:azimuth=…,elevation=…,width=…,height=…,radiance=…,background=…, builtin:axes or builtin:thesis";
 
 Vec3d direction_from(double azimuth_degrees, double elevation_degrees) {
   const double a = azimuth_degrees * kDegree, e = elevation_degrees * kDegree;
@@ -99,6 +99,19 @@ std::unique_ptr<Light> make_studio_light() {
   });
 }
 
+std::unique_ptr<Light> make_panel_light(const PanelParams& params) {
+  const Vec3d axis = direction_from(params.azimuth, params.elevation);
+  const Vec3d right = std::tan(0.5 * params.width * kDegree) * direction_from(params.azimuth + 90, 0);
+  const Vec3d up = std::tan(0.5 * params.height * kDegree) * cross(direction_from(params.azimuth + 90, 0), axis);
+  return std::make_unique<FunctionLight>(
+      [background = params.background](Vec3d) {
+        return Rgb{background, background, background};
+      },
+      std::vector<FunctionLight::Disc>(),
+      std::vector<FunctionLight::Polygon>{{{axis - right - up, axis + right - up, axis + right + up, axis - right + up},
+                                           {params.radiance, params.radiance, params.radiance}}});
+}
+
 std::unique_ptr<Light> make_axes_light() {
   const double half_angle = 25 * kDegree;
   return std::make_unique<FunctionLight>(
@@ -128,15 +141,24 @@ std::unique_ptr<Light> make_builtin_light(const std::string& name_and_parameters
   const std::string parameters =
       colon < name_and_parameters.size() ? name_and_parameters.substr(colon + 1) : std::string();
   SkyParams sky;
+  PanelParams panel;
   if (name == "sky")
     parse_parameters(parameters, {{"elevation", &sky.elevation, 0, 90},
                                   {"azimuth", &sky.azimuth, -360, 360},
                                   {"turbidity", &sky.turbidity, 1.7, 10},
                                   {"ground", &sky.ground, 0, 1}});
+  else if (name == "panel")
+    parse_parameters(parameters, {{"azimuth", &panel.azimuth, -360, 360},
+                                  {"elevation", &panel.elevation, -90, 90},
+                                  {"width", &panel.width, 0.001, 175},
+                                  {"height", &panel.height, 0.001, 175},
+                                  {"radiance", &panel.radiance, 0, 1e9},
+                                  {"background", &panel.background, 0, 1e9}});
   else
     parse_parameters(parameters, {});
   if (name == "sky") return make_sky_light(sky);
   if (name == "studio") return make_studio_light();
+  if (name == "panel") return make_panel_light(panel);
   if (name == "axes") return make_axes_light();
   if (name == "thesis") return make_thesis_light();
   throw Error("builtin:" + name, "no such built-in light", kAccepted);

@@ -22,6 +22,18 @@ std::unique_ptr<Light> make_sky_light(const SkyParams& params);
 // A photographer's studio: a warm key soft box, a cool fill, a strip from behind, a wide one overhead, on grey.
 std::unique_ptr<Light> make_studio_light();
 
+// One flat lamp of uniform radiance that faces the origin, a rectangle of these sizes in degrees, upright, and a
+// uniform background: exact at any number of bands.
+struct PanelParams {
+  double azimuth = -40;  // of its centre, degrees
+  double elevation = 35;
+  double width = 40;  // as seen, degrees, (0, 175]
+  double height = 30;
+  double radiance = 5;
+  double background = 0.05;  // radiance from everywhere
+};
+std::unique_ptr<Light> make_panel_light(const PanelParams& params);
+
 // An orientation test: on each axis a disc of 25° half angle; +X red, −X cyan, +Y green, −Y magenta, +Z blue, −Z
 // yellow.
 std::unique_ptr<Light> make_axes_light();
@@ -29,7 +41,8 @@ std::unique_ptr<Light> make_axes_light();
 // The thesis's light of two lobes (Green 2003), max(0, 5 cos θ − 4) + max(0, −4 sin(θ − π) cos(φ − 2.5) − 3), about z.
 std::unique_ptr<Light> make_thesis_light();
 
-// From "sky", "sky:elevation=20,turbidity=4", "studio", "axes" or "thesis". Throws Error.
+// From "sky", "sky:elevation=20,turbidity=4", "studio",
+// "panel:width=60,height=10", "axes" or "thesis". Throws Error.
 std::unique_ptr<Light> make_builtin_light(const std::string& name_and_parameters);
 
 }  // namespace shlight

@@ -55,7 +55,8 @@ TEST(BuiltinLight, ThesisLightIsItsClosedForm) {
 
 // The coefficients of a light and those of a picture of it: projection and radiance() tell of the same light.
 TEST(BuiltinLight, CoefficientsAreThoseOfThePicture) {
-  for (const char* name : {"sky:elevation=12", "sky:elevation=80,turbidity=6,ground=0.5", "studio", "axes", "thesis"}) {
+  for (const char* name : {"sky:elevation=12", "sky:elevation=80,turbidity=6,ground=0.5", "studio",
+                           "panel:elevation=60,azimuth=100", "axes", "thesis"}) {
     const auto light = make_builtin_light(name);
     const RgbCoefficients exact = light->project(5);
     const RgbCoefficients picture = project_image({light->lat_long(1024), Layout::kLatLong}, 5);
@@ -66,6 +67,24 @@ TEST(BuiltinLight, CoefficientsAreThoseOfThePicture) {
       EXPECT_NEAR(picture[i].b, exact[i].b, tolerance) << name << ", coefficient " << i;
     }
   }
+}
+
+// A panel that subtends the solid angle 4 asin(sin(a/2) sin(b/2)), as rectangles seen from their axis do.
+TEST(BuiltinLight, PanelHasItsSize) {
+  PanelParams params;
+  params.width = 60, params.height = 20, params.radiance = 3, params.background = 0.5;
+  const auto panel = make_panel_light(params);
+  const double solid_angle = 4 * std::asin(std::sin(30 * pi / 180) * std::sin(10 * pi / 180));
+  EXPECT_NEAR(panel->project(3)[0].g * std::sqrt(4 * pi), 3 * solid_angle + 0.5 * 4 * pi, 1e-12);
+  // Its edges are where they should be, and it faces the origin.
+  const auto at = [&](double azimuth, double elevation) {
+    const double a = azimuth * pi / 180, e = elevation * pi / 180;
+    return panel->radiance({std::cos(e) * std::sin(a), std::sin(e), -std::cos(e) * std::cos(a)}).g;
+  };
+  EXPECT_EQ(at(params.azimuth, params.elevation + 9.9), 3.5);
+  EXPECT_EQ(at(params.azimuth, params.elevation + 10.1), 0.5);
+  EXPECT_EQ(at(params.azimuth, params.elevation - 9.9), 3.5);
+  EXPECT_EQ(at(params.azimuth + 180, -params.elevation), 0.5);
 }
 
 TEST(BuiltinLight, AxesLightTheSideThatFacesThem) {
@@ -101,8 +120,9 @@ TEST(BuiltinLight, SkyIsBlueAboveAndItsSunWhereItWasPut) {
 }
 
 TEST(BuiltinLight, RefusesWhatItDoesNotKnow) {
-  for (const char* name : {"", "moon", "sky:elevation", "sky:elevation=", "sky:elevation=x", "sky:elevation=95",
-                           "sky:elevation=nan", "sky:height=3", "sky:,", "studio:key=2"})
+  for (const char* name :
+       {"", "moon", "sky:elevation", "sky:elevation=", "sky:elevation=x", "sky:elevation=95", "sky:elevation=nan",
+        "sky:height=3", "sky:,", "studio:key=2", "panel:width=0", "panel:width=180"})
     EXPECT_THROW(make_builtin_light(name), Error) << name;
 }
 
