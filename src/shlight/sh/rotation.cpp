@@ -172,18 +172,33 @@ SHLIGHT_ALWAYS_INLINE inline void rotate_degree(const float* matrix, const float
   }
 }
 
-// The same for any number of rows.
+// `Block` rows of a matrix of any size at once: they share the loads of the inputs, and their sums do not wait for each
+// other, as those of one row do.
+template <int Block, class Size>
+SHLIGHT_ALWAYS_INLINE inline void rotate_rows(int rows, const float* matrix, const float* values, float* result,
+                                              std::size_t count, Size lanes) {
+  Lanes sums[Block] = {}, input = {};
+  for (int k = 0; k < rows; ++k) {
+    std::memcpy(&input, values + static_cast<std::size_t>(k) * count, lanes * sizeof(float));
+#pragma GCC unroll 16
+    for (int i = 0; i < Block; ++i) sums[i] += matrix[i * rows + k] * input;
+  }
+#pragma GCC unroll 16
+  for (int i = 0; i < Block; ++i)
+    std::memcpy(result + static_cast<std::size_t>(i) * count, &sums[i], lanes * sizeof(float));
+}
+
+// The same for any number of rows, which is odd.
 template <class Size>
 SHLIGHT_ALWAYS_INLINE inline void rotate_high_degree(int rows, const float* matrix, const float* values, float* result,
                                                      std::size_t count, Size lanes) {
-  for (int i = 0; i < rows; ++i) {
-    Lanes sum = {}, input = {};
-    for (int k = 0; k < rows; ++k) {
-      std::memcpy(&input, values + static_cast<std::size_t>(k) * count, lanes * sizeof(float));
-      sum += matrix[i * rows + k] * input;
-    }
-    std::memcpy(result + static_cast<std::size_t>(i) * count, &sum, lanes * sizeof(float));
-  }
+  constexpr int kBlock = 8;
+  int i = 0;
+  for (; i + kBlock <= rows; i += kBlock)
+    rotate_rows<kBlock>(rows, matrix + i * rows, values, result + static_cast<std::size_t>(i) * count, count, lanes);
+  for (; i + 2 <= rows; i += 2)
+    rotate_rows<2>(rows, matrix + i * rows, values, result + static_cast<std::size_t>(i) * count, count, lanes);
+  rotate_rows<1>(rows, matrix + i * rows, values, result + static_cast<std::size_t>(i) * count, count, lanes);
 }
 
 // All degrees of one block of vectors. `matrix` holds the blocks of all degrees one after the other, in float.
