@@ -152,6 +152,29 @@ TEST_F(ToolRender, CoefficientsLightAsTheirLightDoes) {
   EXPECT_GT(luminance(draw({"--light", path("a.json")}).rgb(0, 0)), 0);
 }
 
+// Without shadows, transfer lights a sphere as the irradiance of its normals does, with any light and number of bands.
+TEST_F(ToolRender, CosineTransferLooksLikeIrradiance) {
+  const double brightest = 6;
+  for (const char* bands : {"1", "3", "10"}) {
+    const std::vector<std::string> view = {"--bands", bands, "--rotate-light", "40"};
+    std::vector<std::string> transfer = view;
+    transfer.insert(transfer.end(), {"--method", "transfer", "--transfer", "cosine"});
+    const Image a = draw(transfer), b = draw(view);
+    double sum = 0;
+    for (std::size_t i = 0; i < a.values.size(); ++i) sum += std::abs(a.values[i] - b.values[i]);
+    EXPECT_LT(sum / static_cast<double>(a.values.size()), 1e-3 * brightest) << bands;
+    EXPECT_NEAR(luminance(a.rgb(40, 30)), luminance(b.rgb(40, 30)), 5e-3 * brightest) << bands;
+  }
+  const auto json =
+      run_json({"render", "builtin:sphere", "--size", "40x30", "--method", "transfer", "--transfer", "cosine"});
+  EXPECT_GT(json["frame_ms"].get<double>(), 0);
+  EXPECT_EQ(json["method"], "transfer");
+  EXPECT_EQ(json["transfer"], "cosine");
+  EXPECT_EQ(json["vertices"], run_json({"info", "builtin:sphere"})["vertices"]);
+  EXPECT_EQ(json["rays"], 0);
+  EXPECT_GE(json["bake_seconds"].get<double>(), 0);
+}
+
 TEST_F(ToolRender, QuietSaysNothing) {
   EXPECT_EQ(run({"--quiet", "render", "builtin:sphere", "--light", axes_, "--size", "8x8", "-o", path("a.png")}).err,
             "");

@@ -10,6 +10,7 @@
 #include "shlight/core/progress.h"
 #include "shlight/light/light.h"
 #include "shlight/sh/rotation.h"
+#include "shlight/transfer/transfer.h"
 
 namespace shlight::app {
 
@@ -55,6 +56,15 @@ RgbCoefficients apply_window(const LightShape& shape, const RgbCoefficients& coe
 std::string describe_sun(const Sun& sun, Rgb all);
 // As the commands print it in JSON: direction, azimuth and elevation in degrees, irradiance, share of the luminance.
 nlohmann::ordered_json json_of_sun(const Sun& sun, Rgb all);
+
+// How transfer is baked: --transfer, --samples and --bounces. check_bake_options refuses those that the kind has no use
+// for, to be called when the command line is parsed.
+void add_bake_options(CLI::App& command, BakeParams& params);
+void check_bake_options(const CLI::App& command, const BakeParams& params);
+const char* transfer_kind_name(TransferKind kind);
+
+// Bakes with a bar, and says on stderr what it took.
+Transfer bake_aloud(const std::string& model, const Scene& scene, const BakeParams& params);
 
 // Numbers in [low, high]; unlike CLI::Range, it does not take NaN for one.
 CLI::Validator number_from(double low, double high);

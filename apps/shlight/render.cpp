@@ -19,6 +19,8 @@ struct RenderArguments {
   LoadLightParams load;
   LightShape shape;
   double rotate_light = 0;  // degrees about +Y
+  std::string method = "irradiance";
+  BakeParams bake;  // --method transfer
   RenderParams params;
   std::filesystem::path output;
   bool no_background = false;
@@ -54,7 +56,22 @@ void run_render(const RenderArguments& arguments) {
   params.rotate_light = rotation_about_y(arguments.rotate_light * std::numbers::pi / 180) * arguments.shape.rotation;
   RenderLight light = make_render_light(*loaded.light, params.bands);
   light.coefficients = apply_window(arguments.shape, light.coefficients);
-  const RenderResult result = render_irradiance(scene, light, params, progress_bar("drawing"));
+
+  RenderResult result;
+  nlohmann::ordered_json of_bake = nlohmann::ordered_json::object();
+  if (arguments.method == "transfer") {
+    BakeParams bake = arguments.bake;
+    bake.bands = params.bands;
+    const Transfer transfer = bake_aloud(arguments.model, scene, bake);
+    of_bake = {{"transfer", transfer_kind_name(transfer.kind)},
+               {"vertices", transfer.num_vertices()},
+               {"bake_seconds", transfer.seconds},
+               {"rays", transfer.rays},
+               {"rays_per_second", transfer.seconds > 0 ? static_cast<double>(transfer.rays) / transfer.seconds : 0.0}};
+    result = render_transfer(scene, transfer, light, params, progress_bar("drawing"));
+  } else {
+    result = render_irradiance(scene, light, params, progress_bar("drawing"));
+  }
 
   std::filesystem::path output = arguments.output;
   if (output.empty() && !arguments.json) output = "render.png";
@@ -65,12 +82,13 @@ void run_render(const RenderArguments& arguments) {
   if (!output.empty())
     spdlog::info("{}: {} x {}, {} triangles, {:.1f} ms a frame on {}", output.string(), params.width, params.height,
                  num_triangles(scene), result.frame_ms, result.gl_renderer);
-  if (arguments.json)
-    print_json({{"frame_ms", result.frame_ms},
-                {"width", params.width},
-                {"height", params.height},
-                {"triangles", num_triangles(scene)},
-                {"gl_renderer", result.gl_renderer}});
+  if (arguments.json) {
+    nlohmann::ordered_json json = {{"frame_ms", result.frame_ms},       {"width", params.width},
+                                   {"height", params.height},           {"triangles", num_triangles(scene)},
+                                   {"gl_renderer", result.gl_renderer}, {"method", arguments.method}};
+    json.update(of_bake);
+    print_json(json);
+  }
 }
 
 }  // namespace
@@ -86,9 +104,14 @@ void add_render(CLI::App& program, Run& run) {
   command->add_option("--bands", params.bands, "Bands of the light's coefficients")
       ->capture_default_str()
       ->check(CLI::Range(1, 10).description("1 to 10"));
-  command->add_option("--method", "How the model is lit")
-      ->default_str("irradiance")
-      ->check(CLI::IsMember({"irradiance"}));
+  command
+      ->add_option("--method", arguments->method,
+                   "How the model is lit: by its normals, or by what is baked for each vertex (--transfer)")
+      ->type_name("irradiance|transfer")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"irradiance", "transfer"}).description(""));
+  arguments->bake.kind = TransferKind::kInterreflected;
+  add_bake_options(*command, arguments->bake);
   command
       ->add_option_function<std::string>(
           "--camera",
@@ -120,7 +143,7 @@ void add_render(CLI::App& program, Run& run) {
       ->check(CLI::Range(1, 1'000'000).description("1 to 1000000"));
   command->add_flag("--no-background", arguments->no_background, "Do not draw the light behind the model");
   command->add_flag("--mark-negative", params.mark_negative,
-                    "Stripes where the irradiance of so few bands is below zero (see --window)");
+                    "Stripes where light of so few bands is below zero (see --window)");
   command->add_option("-o,--output", arguments->output, "Picture as shown (.png) or linear radiance (.exr)")
       ->type_name("FILE.png|.exr")
       ->check(CLI::Validator(
@@ -132,8 +155,15 @@ void add_render(CLI::App& program, Run& run) {
   command->add_flag("--json", arguments->json, "Print the time of a frame and more on stdout");
   command->footer(
       "Examples:\n  shlight render skull.x --light venice.hdr -o picture.png\n"
-      "  shlight render builtin:knot --light builtin:studio --bands 5 --camera 20,10,1.2 -o knot.png");
-  command->callback([arguments, &run] { run = [arguments] { run_render(*arguments); }; });
+      "  shlight render builtin:knot --light builtin:studio --bands 5 --camera 20,10,1.2 -o knot.png\n"
+      "  shlight render builtin:scene --method transfer --transfer shadowed --bands 5 -o shadows.png");
+  command->callback([arguments, command, &run] {
+    for (const char* option : {"--transfer", "--samples", "--bounces"})
+      if (command->count(option) > 0 && arguments->method != "transfer")
+        throw CLI::ValidationError(option, "only with --method transfer");
+    check_bake_options(*command, arguments->bake);
+    run = [arguments] { run_render(*arguments); };
+  });
 }
 
 }  // namespace shlight::app

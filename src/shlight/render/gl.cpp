@@ -141,6 +141,12 @@ void Program::set(const char* name, const Mat4f& value) const {
   glUniformMatrix4fv(location(name), 1, GL_FALSE, value.data());
 }
 
+void Program::set(const char* name, std::span<const Mat3x4f> values) const {
+  static_assert(sizeof(Mat3x4f) == 12 * sizeof(float));
+  if (!values.empty())
+    glUniformMatrix3x4fv(location(name), static_cast<GLsizei>(values.size()), GL_FALSE, values[0].data());
+}
+
 void draw_fullscreen_triangle() {
   // The vertex shader needs no attributes, but some drivers insist on a vertex array.
   const VertexArray vertex_array = make_vertex_array();

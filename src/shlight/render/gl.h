@@ -55,6 +55,9 @@ Framebuffer make_framebuffer();
 // Column-major 3x3 matrix, as OpenGL has it.
 using Mat3f = std::array<float, 9>;
 
+// GLSL's mat3x4: three columns of four.
+using Mat3x4f = std::array<float, 12>;
+
 // A vertex and a fragment shader, compiled and linked. The setters work on the program in use; a name that the program
 // has no use for is passed over, as OpenGL does.
 class Program {
@@ -70,6 +73,7 @@ class Program {
   void set(const char* name, std::span<const Vec3f> values) const;
   void set(const char* name, const Mat3f& value) const;
   void set(const char* name, const Mat4f& value) const;
+  void set(const char* name, std::span<const Mat3x4f> values) const;
 
  private:
   int location(const char* name) const;

@@ -76,13 +76,17 @@ glm::dmat3 normal_matrix(const glm::dmat3& m) {
 }  // namespace
 
 GpuScene::GpuScene(const Scene& scene)
-    : instances_(scene.instances), materials_(scene.materials), white_(make_white_texture()) {
+    : instances_(scene.instances),
+      materials_(scene.materials),
+      white_(make_white_texture()),
+      num_vertices_(shlight::num_vertices(scene)) {
   for (const Image8& image : scene.textures) textures_.push_back(upload_texture(image));
   for (const Mesh& mesh : scene.meshes) {
     SHLIGHT_ASSERT_LT(mesh.material, scene.materials.size());
     SHLIGHT_ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
-    GpuMesh gpu_mesh = {gl::make_vertex_array(), gl::make_buffer(), gl::make_buffer(),
-                        static_cast<int>(mesh.indices.size()), mesh.material};
+    GpuMesh gpu_mesh = {gl::make_vertex_array(), gl::make_buffer(),
+                        gl::make_buffer(),       static_cast<int>(mesh.indices.size()),
+                        mesh.positions.size(),   mesh.material};
     glBindVertexArray(gpu_mesh.vertex_array.id());
     glBindBuffer(GL_ARRAY_BUFFER, gpu_mesh.vertices.id());
     const std::size_t bytes = (mesh.positions.size() + mesh.normals.size() + mesh.colors.size()) * sizeof(Vec3f) +
@@ -116,12 +120,15 @@ void GpuScene::draw(const gl::Program& program, const View& view, const Rotation
   glVertexAttrib2f(kTexcoord, 0, 0);
   glVertexAttrib3f(kColor, 1, 1, 1);
 
+  std::size_t first_vertex = 0;
   for (const Instance& instance : instances_) {
     const GpuMesh& mesh = meshes_[instance.mesh];
     const Material& material = materials_[mesh.material];
     const glm::dmat4 to_world = to_glm(instance.to_world);
     program.set("u_object_to_clip", to_mat4f(world_to_clip * to_world));
     program.set("u_normal_to_light", to_mat3f(world_to_light * normal_matrix(glm::dmat3(to_world))));
+    program.set("u_first_vertex", static_cast<int>(first_vertex));
+    first_vertex += mesh.num_vertices;
     program.set("u_base_color", material.base_color);
     glBindTexture(GL_TEXTURE_2D, material.texture ? textures_[*material.texture].id() : white_.id());
     // A mirroring instance turns the winding around.

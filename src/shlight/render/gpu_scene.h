@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,22 +12,28 @@
 namespace shlight {
 
 // A scene's meshes and textures in the memory of the graphics card, for any renderer whose programs use the vertex
-// shader mesh.vert. Needs the context in which it was made.
+// shader mesh.vert or transfer.vert. Needs the context in which it was made.
 class GpuScene {
  public:
   // Throws Error where a texture is bigger than the card takes, or where memory runs out.
   explicit GpuScene(const Scene& scene);
 
   // Draws all instances with `program`, into the framebuffer and viewport now bound, with a depth test and both sides
-  // of every triangle. Sets u_object_to_clip and u_normal_to_light of mesh.vert, and u_base_color and u_texture; the
-  // rest is the caller's. `light_to_world` turns the light's frame into the world.
+  // of every triangle. Sets u_object_to_clip, u_normal_to_light and u_first_vertex of the vertex shaders, and
+  // u_base_color and u_texture of surface.frag; the rest is the caller's. `light_to_world` turns the light's frame into
+  // the world.
   void draw(const gl::Program& program, const View& view, const Rotation& light_to_world) const;
+
+  // Of all instances. A mesh's vertices keep their sequence, and instances theirs: vertex v of an instance is the
+  // (first vertex + v)th.
+  std::size_t num_vertices() const { return num_vertices_; }
 
  private:
   struct GpuMesh {
     gl::VertexArray vertex_array;
     gl::Buffer vertices, indices;
     int num_indices = 0;
+    std::size_t num_vertices = 0;
     std::uint32_t material = 0;
   };
 
@@ -35,6 +42,7 @@ class GpuScene {
   std::vector<Material> materials_;
   std::vector<gl::Texture> textures_;
   gl::Texture white_;  // of materials without a texture
+  std::size_t num_vertices_;
 };
 
 }  // namespace shlight

@@ -1,12 +1,15 @@
 #include "shlight/render/irradiance_renderer.h"
 
+#include <string>
+
 #include "shaders.h"
 #include "shlight/render/sh_glsl.h"
 
 namespace shlight {
 
 IrradianceRenderer::IrradianceRenderer(const RgbCoefficients& radiance)
-    : program_(shaders::mesh_vert, shaders::irradiance_frag, make_irradiance_glsl(radiance.bands())) {
+    : program_(shaders::mesh_vert, shaders::surface_frag,
+               std::string(shaders::irradiance_frag) + make_irradiance_glsl(radiance.bands())) {
   program_.use();
   set_irradiance_uniforms(program_, radiance);
 }

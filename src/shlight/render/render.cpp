@@ -15,6 +15,7 @@
 #include "shlight/render/irradiance_renderer.h"
 #include "shlight/render/targets.h"
 #include "shlight/render/tone_map.h"
+#include "shlight/render/transfer_renderer.h"
 
 namespace shlight {
 namespace {
@@ -30,16 +31,10 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-}  // namespace
-
-RenderLight make_render_light(const Light& light, int bands, int background_width) {
-  RenderLight result{light.project(bands), {}};
-  if (!dynamic_cast<const CoefficientLight*>(&light)) result.background = light.lat_long(background_width);
-  return result;
-}
-
-RenderResult render_irradiance(const Scene& scene, const RenderLight& light, const RenderParams& params,
-                               const Progress& progress) {
+// Draws with the renderer that make_renderer makes in the context from the light's coefficients.
+template <class MakeRenderer>
+RenderResult render(const Scene& scene, const RenderLight& light, const RenderParams& params, const Progress& progress,
+                    const MakeRenderer& make_renderer) {
   SHLIGHT_ASSERT_LE(1, params.frames);
   const HeadlessContext context;
   const RadianceTarget radiance_target(params.width, params.height);
@@ -52,7 +47,7 @@ RenderResult render_irradiance(const Scene& scene, const RenderLight& light, con
   const RgbCoefficients coefficients = scaled(unit, resize_bands(light.coefficients, params.bands));
   const Background background =
       light.background.num_pixels() > 0 ? Background(light.background, unit) : Background(coefficients);
-  IrradianceRenderer renderer(coefficients);
+  auto renderer = make_renderer(coefficients);
   const double exposed = exposure / unit * std::exp2(params.exposure);
   if (params.mark_negative) {
     const float bright = static_cast<float>(1 / exposed);
@@ -92,6 +87,27 @@ RenderResult render_irradiance(const Scene& scene, const RenderLight& light, con
   report_progress(progress, 1);
   result.frame_ms = median(frame_ms);
   return result;
+}
+
+}  // namespace
+
+RenderLight make_render_light(const Light& light, int bands, int background_width) {
+  RenderLight result{light.project(bands), {}};
+  if (!dynamic_cast<const CoefficientLight*>(&light)) result.background = light.lat_long(background_width);
+  return result;
+}
+
+RenderResult render_irradiance(const Scene& scene, const RenderLight& light, const RenderParams& params,
+                               const Progress& progress) {
+  return render(scene, light, params, progress,
+                [](const RgbCoefficients& radiance) { return IrradianceRenderer(radiance); });
+}
+
+RenderResult render_transfer(const Scene& scene, const Transfer& transfer, const RenderLight& light,
+                             const RenderParams& params, const Progress& progress) {
+  SHLIGHT_ASSERT_EQ(transfer.num_vertices(), num_vertices(scene));
+  return render(scene, light, params, progress,
+                [&](const RgbCoefficients& radiance) { return TransferRenderer(transfer, radiance); });
 }
 
 }  // namespace shlight

@@ -9,19 +9,20 @@
 #include "shlight/scene/scene.h"
 #include "shlight/sh/coefficients.h"
 #include "shlight/sh/rotation.h"
+#include "shlight/transfer/transfer.h"
 
 namespace shlight {
 
 struct RenderParams {
   int width = 1280;
   int height = 720;
-  int bands = 3;  // of the irradiance, 1 to 10; the light has as many or more, further ones of it are not used
+  int bands = 3;  // used of the light, which may have more, and of transfer; 1 to 10
   Camera camera;
   Rotation rotate_light;  // of the light, before it falls on the scene
   double exposure = 0;    // stops, on top of auto_exposure() of the light
   int frames = 1;         // at least 1: how many are timed; the view turns once around in them
   bool show_background = true;
-  bool mark_negative = false;  // magenta stripes where a channel of the irradiance is below zero
+  bool mark_negative = false;  // magenta stripes where a channel of what lights a surface is below zero
 };
 
 // A distant light as the renderer needs it.
@@ -45,5 +46,9 @@ struct RenderResult {
 // too small for the picture; Cancelled.
 RenderResult render_irradiance(const Scene& scene, const RenderLight& light, const RenderParams& params,
                                const Progress& progress = {});
+
+// The same by the transfer method: `transfer` is the scene's, as bake_transfer makes it.
+RenderResult render_transfer(const Scene& scene, const Transfer& transfer, const RenderLight& light,
+                             const RenderParams& params, const Progress& progress = {});
 
 }  // namespace shlight
