@@ -40,6 +40,23 @@ Error cannot_write(const std::filesystem::path& path) {
                "a file name in an existing, writable folder with room on its disk");
 }
 
+// The status of what a file is to replace, zero where there is nothing.
+struct stat status_to_replace(const std::filesystem::path& path) {
+  // rename() would replace a device or a pipe by a file, and cannot replace a folder.
+  struct stat status = {};
+  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+    throw Error(path.string(), "is not a regular file", "a new file name, or a file to replace");
+  return status;
+}
+
+// Makes a file of a new name beside `path`, in the same folder so that it can be renamed.
+int open_temporary(const std::filesystem::path& path, std::string& temporary) {
+  temporary = path.string() + ".XXXXXX";
+  const int file = ::mkostemp(temporary.data(), O_CLOEXEC);
+  if (file < 0) throw cannot_write(path);
+  return file;
+}
+
 }  // namespace
 
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes) {
@@ -66,14 +83,9 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_
 }
 
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  // rename() would replace a device or a pipe by a file, and cannot replace a folder.
-  struct stat status = {};
-  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
-    throw Error(path.string(), "is not a regular file", "a new file name, or a file to replace");
-
-  std::string temporary = path.string() + ".XXXXXX";
-  FileDescriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
-  if (file.get() < 0) throw cannot_write(path);
+  const struct stat status = status_to_replace(path);
+  std::string temporary;
+  FileDescriptor file(open_temporary(path, temporary));
 
   // Temporary files are born private; the result gets the permissions of the file it replaces, or the usual ones.
   bool good = true;
@@ -100,6 +112,13 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> by
 
 void write_file(const std::filesystem::path& path, std::string_view text) {
   write_file(path, std::as_bytes(std::span(text)));
+}
+
+void check_writable(const std::filesystem::path& path) {
+  status_to_replace(path);
+  std::string temporary;
+  const FileDescriptor file(open_temporary(path, temporary));
+  ::unlink(temporary.c_str());
 }
 
 }  // namespace shlight

@@ -17,4 +17,8 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file(const std::filesystem::path& path, std::string_view text);
 
+// Throws the Error that write_file would, as far as can be told without the bytes: before long work, that is. Leaves
+// nothing behind.
+void check_writable(const std::filesystem::path& path);
+
 }  // namespace shlight

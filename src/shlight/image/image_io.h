@@ -50,4 +50,7 @@ void save_image(const std::filesystem::path& path, const Image& image, std::opti
 // Writes an sRGB picture as .png. Whole or not at all; throws Error.
 void save_image8(const std::filesystem::path& path, const Image8& image);
 
+// The bytes of that file. Throws Error, with `name` as its subject.
+std::vector<std::byte> encode_png(const Image8& image, const std::string& name);
+
 }  // namespace shlight

@@ -14,19 +14,28 @@ namespace {
 
 constexpr float kLargestHalf = 65504;
 
-void encode(const std::filesystem::path& path, OIIO::ImageSpec spec, OIIO::TypeDesc type, const void* values,
-            const char* accepted) {
+// `file_name` tells the format by its ending; `name` is what errors are about.
+std::vector<std::byte> encode(const std::string& name, const std::string& file_name, OIIO::ImageSpec spec,
+                              OIIO::TypeDesc type, const void* values, const char* accepted) {
   without_library_threads();
-  const std::string name = path.string();
-  auto output = OIIO::ImageOutput::create(name);
+  auto output = OIIO::ImageOutput::create(file_name);
   if (!output || !output->supports("ioproxy"))
-    throw Error(name, fmt::format("cannot write '{}' pictures", path.extension().string()), accepted);
+    throw Error(name, fmt::format("cannot write '{}' pictures", std::filesystem::path(file_name).extension().string()),
+                accepted);
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
   output->set_ioproxy(&memory);
   if (!output->open(name, spec) || !output->write_image(type, values) || !output->close())
     throw Error(name, "cannot be encoded (" + output->geterror() + ")", accepted);
-  write_file(path, std::as_bytes(std::span(bytes)));
+  const std::span<const std::byte> encoded = std::as_bytes(std::span(bytes));
+  return {encoded.begin(), encoded.end()};
+}
+
+std::vector<std::byte> encode8(const Image8& image, const std::string& name, const std::string& file_name) {
+  OIIO::ImageSpec spec(image.width, image.height, 4, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  return encode(name, file_name, spec, OIIO::TypeDesc::UINT8, image.values.data(), "a file name that ends in .png");
 }
 
 }  // namespace
@@ -42,14 +51,16 @@ void save_image(const std::filesystem::path& path, const Image& image, std::opti
   // OpenImageIO's names of OpenEXR's envmap attribute.
   if (layout == Layout::kOpenExrLatLong) spec.attribute("textureformat", "LatLong Environment");
   if (layout == Layout::kOpenExrCube) spec.attribute("textureformat", "CubeFace Environment");
-  encode(path, spec, OIIO::TypeFloat, image.values.data(), "a file name that ends in .exr or .hdr");
+  write_file(path, encode(path.string(), path.string(), spec, OIIO::TypeFloat, image.values.data(),
+                          "a file name that ends in .exr or .hdr"));
 }
 
 void save_image8(const std::filesystem::path& path, const Image8& image) {
-  OIIO::ImageSpec spec(image.width, image.height, 4, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  encode(path, spec, OIIO::TypeDesc::UINT8, image.values.data(), "a file name that ends in .png");
+  write_file(path, encode8(image, path.string(), path.string()));
+}
+
+std::vector<std::byte> encode_png(const Image8& image, const std::string& name) {
+  return encode8(image, name, "texture.png");
 }
 
 }  // namespace shlight
