@@ -4,7 +4,7 @@ find_package(fmt REQUIRED)            # core
 find_package(TBB REQUIRED)            # core
 find_package(OpenImageIO REQUIRED)    # image
 find_package(muparser REQUIRED)       # light
-find_package(nlohmann_json REQUIRED)  # light, apps
+find_package(nlohmann_json REQUIRED)  # light, transfer, apps
 find_package(assimp REQUIRED)         # scene; its target names libz.so, which its package does not bring: zlib1g-dev
 find_package(embree 3 REQUIRED)       # transfer
 find_package(glm REQUIRED)            # render

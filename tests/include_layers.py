@@ -21,7 +21,7 @@ LIBRARIES = {
     "tbb/": ["core"],
     "OpenImageIO/": ["image"],
     "muParser": ["light"],
-    "nlohmann/": ["light", "apps", "tests"],
+    "nlohmann/": ["light", "transfer", "apps", "tests"],
     "assimp/": ["scene"],
     "tiny_gltf": ["scene"],
     "meshoptimizer": ["scene"],

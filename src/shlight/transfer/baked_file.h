@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shlight/scene/scene.h"
+#include "shlight/transfer/transfer.h"
+
+// Baked files: a scene and its transfer as one binary glTF file, which every viewer of such files shows as a model and
+// which shlight can light. docs/baked-files.md describes the format for other readers.
+
+namespace shlight {
+
+// What there is to know about a bake beside its result.
+struct BakeInfo {
+  BakeParams params;  // what it was baked with; threads, tracer and checkpoint are not kept
+  std::string model;  // what was baked, in words for people
+};
+
+struct Baked {
+  Scene scene;  // as it was baked, without meshes that no instance shows; names that are no UTF-8 are mended
+  Transfer transfer;
+  BakeInfo info;
+};
+
+// Writes a baked file whole or not at all. `transfer` is bake_transfer's of `scene`. Every float comes back with the
+// bits it had. Throws Error, also where a mesh is shown that has no triangle, or where the file would be larger than
+// 4 GiB.
+void save_baked(const std::filesystem::path& path, const Scene& scene, const Transfer& transfer, const BakeInfo& info);
+
+// The bytes of that file. `name` is used in errors.
+std::vector<std::byte> format_baked(const Scene& scene, const Transfer& transfer, const BakeInfo& info,
+                                    const std::string& name);
+
+// Reads a baked file, which may come from anybody: what comes back keeps all that scene.h and transfer.h promise, and
+// takes no more than a few times the file's memory. Throws Error where the file was cut short or changed by anything
+// but save_baked, or is of another version.
+Baked load_baked(const std::filesystem::path& path);
+Baked load_baked(std::span<const std::byte> bytes, const std::string& name);
+
+// Whether a file begins as save_baked's do. Such a file is not only a model, or not one that can be read.
+bool is_baked_file(const std::filesystem::path& path);
+
+// Whether a bake of the scene with these params would give the same transfer again.
+inline bool still_fits(const Transfer& transfer, const Scene& scene, const BakeParams& params) {
+  return transfer.hash == hash_bake(scene, params);
+}
+
+// What a baked file holds for each vertex beside its mesh: transfer, ambient occlusion, bent normal.
+std::size_t baked_bytes_per_vertex(int bands, int channels);
+
+// Throws the Error that save_baked would, as far as can be told before baking: the folder is not there, or not
+// writable, or the file would be larger than 4 GiB.
+void check_savable(const std::filesystem::path& path, const Scene& scene, const BakeParams& params);
+
+// "cosine", "shadowed", "interreflected"; nothing where there is no such kind.
+std::string_view to_text(TransferKind kind);
+std::optional<TransferKind> find_transfer_kind(std::string_view name);
+// "best", "monte-carlo".
+std::string_view to_text(TransferMethod method);
+std::optional<TransferMethod> find_transfer_method(std::string_view name);
+
+}  // namespace shlight

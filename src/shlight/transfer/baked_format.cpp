@@ -1,0 +1,108 @@
+#include "shlight/transfer/baked_format.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <utility>
+
+#include "shlight/core/error.h"
+#include "shlight/core/file.h"
+#include "shlight/sh/coefficients.h"
+#include "shlight/transfer/glb.h"
+
+namespace shlight {
+namespace {
+
+constexpr std::pair<TransferKind, std::string_view> kKinds[] = {{TransferKind::kCosine, "cosine"},
+                                                                {TransferKind::kShadowed, "shadowed"},
+                                                                {TransferKind::kInterreflected, "interreflected"}};
+constexpr std::pair<TransferMethod, std::string_view> kMethods[] = {{TransferMethod::kBest, "best"},
+                                                                    {TransferMethod::kMonteCarlo, "monte-carlo"}};
+
+template <class Value, std::size_t n>
+std::string_view name_in(const std::pair<Value, std::string_view> (&table)[n], Value value) {
+  for (const auto& [entry, name] : table)
+    if (entry == value) return name;
+  return "";
+}
+
+template <class Value, std::size_t n>
+std::optional<Value> find_in(const std::pair<Value, std::string_view> (&table)[n], std::string_view name) {
+  for (const auto& [value, entry] : table)
+    if (entry == name) return value;
+  return {};
+}
+
+}  // namespace
+
+std::string_view to_text(TransferKind kind) {
+  return name_in(kKinds, kind);
+}
+std::optional<TransferKind> find_transfer_kind(std::string_view name) {
+  return find_in(kKinds, name);
+}
+std::string_view to_text(TransferMethod method) {
+  return name_in(kMethods, method);
+}
+std::optional<TransferMethod> find_transfer_method(std::string_view name) {
+  return find_in(kMethods, name);
+}
+
+std::string transfer_attribute(int channels, int channel, int k) {
+  return channels == 1 ? fmt::format("_SH_TRANSFER_{}", k) : fmt::format("_SH_TRANSFER_{}_{}", "RGB"[channel], k);
+}
+
+int num_transfer_attributes(int bands) {
+  return (num_coefficients(bands) + 3) / 4;
+}
+
+nlohmann::ordered_json baked_convention() {
+  return {{"basis", "real, orthonormal"},
+          {"condon_shortley_phase", false},
+          {"index", "l(l+1)+m"},
+          {"polynomials",
+           ".282095, .488603 y, .488603 z, .488603 x, 1.092548 xy, 1.092548 yz, .315392(3z^2-1), "
+           "1.092548 xz, .546274(x^2-y^2), ..."},
+          {"frame", "right-handed, +Y up, -Z forward, directions toward the light, of the world and not of the node"},
+          {"quantity",
+           "transfer: radiance of a vertex = base color * sum of light's coefficients of radiance * these; "
+           "1/pi is in it, the base color is not"},
+          {"color", "linear Rec. 709"}};
+}
+
+std::size_t baked_bytes_per_vertex(int bands, int channels) {
+  const auto floats = static_cast<std::size_t>(4 * channels * num_transfer_attributes(bands));
+  return sizeof(float) * floats + sizeof(float) + sizeof(Vec3f);
+}
+
+std::uint64_t estimate_baked_bytes(const Scene& scene, int bands, int channels) {
+  constexpr std::uint64_t kJsonBytes = 1 << 12, kAccessorBytes = 200;
+  const auto accessors = static_cast<std::uint64_t>(channels * num_transfer_attributes(bands) + 8);
+  std::uint64_t bytes = kJsonBytes + scene.instances.size() * accessors * kAccessorBytes;
+  bytes += num_vertices(scene) * baked_bytes_per_vertex(bands, channels);
+  for (const Mesh& mesh : scene.meshes)
+    bytes += sizeof(Vec3f) * (mesh.positions.size() + mesh.normals.size() + mesh.colors.size()) +
+             sizeof(Vec2f) * mesh.texcoords.size() + sizeof(std::uint32_t) * mesh.indices.size();
+  return bytes;
+}
+
+void check_savable(const std::filesystem::path& path, const Scene& scene, const BakeParams& params) {
+  check_writable(path);
+  const int channels = params.kind == TransferKind::kInterreflected ? 3 : 1;
+  const std::uint64_t bytes = estimate_baked_bytes(scene, params.bands, channels);
+  if (bytes > kMaxGlbBytes)
+    throw Error(path.string(), fmt::format("would hold about {} bytes", bytes),
+                fmt::format("at most {}: fewer bands, or parts of the scene in files of their own", kMaxGlbBytes));
+}
+
+bool is_baked_file(const std::filesystem::path& path) {
+  constexpr std::size_t kJsonAt = 20;  // after the headers of file and chunk
+  std::array<char, kJsonAt + kBakedHead.size()> head = {};
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), head.size());
+  const std::string_view text(head.data(), head.size());
+  return file && text.starts_with("glTF") && text.substr(kJsonAt) == kBakedHead;
+}
+
+}  // namespace shlight
