@@ -20,6 +20,7 @@ using Run = std::function<void()>;
 // One function a command: adds it to the program.
 void add_project(CLI::App& program, Run& run);
 void add_render(CLI::App& program, Run& run);
+void add_bake(CLI::App& program, Run& run);
 void add_info(CLI::App& program, Run& run);
 void add_demo(CLI::App& program, Run& run);
 void add_convert_map(CLI::App& program, Run& run);

@@ -10,6 +10,7 @@
 #include "command.h"
 #include "shlight/core/error.h"
 #include "shlight/scene/load_scene.h"
+#include "shlight/transfer/baked_file.h"
 
 namespace shlight::app {
 namespace {
@@ -95,7 +96,28 @@ ordered_json info_of(const Scene& scene) {
   return json;
 }
 
+ordered_json info_of(const Baked& baked) {
+  const auto& [scene, transfer, info] = baked;
+  ordered_json json = info_of(scene);
+  json["kind"] = "baked";
+  json["model"] = info.model;
+  json["transfer"] = to_text(transfer.kind);
+  json["bands"] = transfer.bands;
+  json["channels"] = transfer.channels;
+  json["bytes_per_vertex"] = baked_bytes_per_vertex(transfer.bands, transfer.channels);
+  json["rays"] = transfer.rays;
+  json["seconds"] = transfer.seconds;
+  json["hash"] = fmt::format("{:016x}", transfer.hash);
+  json["settings"] = {{"method", to_text(info.params.method)},
+                      {"samples", info.params.samples},
+                      {"error", info.params.error},
+                      {"bounces", info.params.bounces},
+                      {"seed", info.params.seed}};
+  return json;
+}
+
 ordered_json info_of_scene(const std::string& file) {
+  if (is_baked_file(file)) return info_of(load_baked(file));
   return info_of(make_scene(file));
 }
 
@@ -146,7 +168,7 @@ void run_info(const InfoArguments& arguments) {
 }  // namespace
 
 void add_info(CLI::App& program, Run& run) {
-  auto* command = program.add_subcommand("info", "Tell what a light or a model holds");
+  auto* command = program.add_subcommand("info", "Tell what a light, a model or a baked file holds");
   const auto arguments = std::make_shared<InfoArguments>();
   command->add_option("FILE", arguments->file, "Any light or model that the other commands take")->required();
   add_light_options(*command, arguments->load);

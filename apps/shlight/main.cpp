@@ -54,6 +54,7 @@ int main(int argc, char** argv) {
   shlight::app::Run run;
   shlight::app::add_project(program, run);
   shlight::app::add_render(program, run);
+  shlight::app::add_bake(program, run);
   shlight::app::add_info(program, run);
   shlight::app::add_demo(program, run);
   shlight::app::add_convert_map(program, run);

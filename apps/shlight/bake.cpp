@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "command.h"
+#include "shlight/core/error.h"
+#include "shlight/scene/load_scene.h"
+#include "shlight/transfer/baked_file.h"
+
+namespace shlight::app {
+namespace {
+
+struct BakeArguments {
+  std::string model;
+  std::filesystem::path output;
+  BakeParams params;
+  bool json = false;
+};
+
+// Shows how far the bake is on stderr where that is a terminal, keeps the last status, and stops where the user asked.
+BakeWatcher watch_bake(BakeStatus& last) {
+  return [&last, terminal = ::isatty(STDERR_FILENO) != 0](const BakeStatus& status) {
+    last = status;
+    if (terminal) {
+      fmt::print(stderr, "\rbaking: {}\033[K{}", to_text(status), status.fraction_done >= 1 ? "\r\033[K" : "");
+      std::fflush(stderr);
+    }
+    return !stop_requested();
+  };
+}
+
+// The bake, from where an earlier one was stopped, if it was.
+Transfer bake(const Scene& scene, const BakeParams& params, BakeStatus& status) {
+  std::error_code ignored;
+  if (std::filesystem::exists(params.checkpoint, ignored))
+    spdlog::info("{}: goes on from where an earlier bake stopped", params.checkpoint.string());
+  try {
+    return bake_transfer(scene, params, watch_bake(status));
+  } catch (const Cancelled&) {
+    if (std::filesystem::exists(params.checkpoint, ignored))
+      spdlog::info("{}: holds what is done; the same command goes on from there", params.checkpoint.string());
+    throw;
+  }
+}
+
+void run_bake(const BakeArguments& arguments) {
+  const Scene scene = make_scene(arguments.model);
+  for (const std::string& warning : scene.warnings) spdlog::warn("{}: {}", arguments.model, warning);
+  BakeParams params = arguments.params;
+  params.checkpoint = arguments.output.string() + ".checkpoint";
+  // Not after hours of baking.
+  check_savable(arguments.output, scene, params);
+
+  BakeStatus status;
+  const Transfer transfer = bake(scene, params, status);
+  save_baked(arguments.output, scene, transfer, {params, arguments.model});
+  std::error_code error;
+  std::filesystem::remove(params.checkpoint, error);
+  if (error) spdlog::warn("{}: cannot be deleted ({})", params.checkpoint.string(), error.message());
+
+  const double rays_per_second = transfer.seconds > 0 ? static_cast<double>(status.rays) / transfer.seconds : 0;
+  const std::size_t bytes_per_vertex = baked_bytes_per_vertex(transfer.bands, transfer.channels);
+  spdlog::info("{}: {} transfer of {} vertices, {} bands, {} bytes a vertex, {:.3g} million rays in {:.3g} s",
+               arguments.output.string(), to_text(transfer.kind), transfer.num_vertices(), transfer.bands,
+               bytes_per_vertex, 1e-6 * static_cast<double>(transfer.rays), transfer.seconds);
+  if (arguments.json)
+    print_json({{"file", arguments.output.string()},
+                {"transfer", to_text(transfer.kind)},
+                {"bands", transfer.bands},
+                {"channels", transfer.channels},
+                {"vertices", transfer.num_vertices()},
+                {"triangles", num_triangles(scene)},
+                {"rays", transfer.rays},
+                {"seconds", transfer.seconds},
+                {"rays_per_second", rays_per_second},
+                {"bytes_per_vertex", bytes_per_vertex},
+                {"file_bytes", std::filesystem::file_size(arguments.output)},
+                {"hash", fmt::format("{:016x}", transfer.hash)}});
+}
+
+// What only some of the options' combinations mean.
+void check_options(const CLI::App& command, const BakeParams& params) {
+  const bool monte_carlo = params.method == TransferMethod::kMonteCarlo;
+  if (monte_carlo && params.kind == TransferKind::kInterreflected)
+    throw CLI::ValidationError("--method", "monte-carlo bakes cosine and shadowed transfer only");
+  if (monte_carlo && params.samples == 0)
+    throw CLI::ValidationError("--samples", "monte-carlo needs a number of samples");
+  if (!monte_carlo && params.kind == TransferKind::kCosine && params.samples > 0)
+    throw CLI::ValidationError("--samples", "cosine transfer is exact and takes none, but for --method monte-carlo");
+  if (command.count("--bounces") > 0 && params.kind != TransferKind::kInterreflected)
+    throw CLI::ValidationError("--bounces", "only with --transfer interreflected");
+}
+
+}  // namespace
+
+void add_bake(CLI::App& program, Run& run) {
+  auto* command = program.add_subcommand("bake", "Bake a model's transfer into a .glb that any light can light");
+  const auto arguments = std::make_shared<BakeArguments>();
+  BakeParams& params = arguments->params;
+  command->add_option("MODEL", arguments->model, kModelHelp)->required();
+  command->add_option("-o,--output", arguments->output, "Where to write; FILE.glb.checkpoint beside it while it bakes")
+      ->required()
+      ->type_name("FILE.glb")
+      ->check(CLI::Validator(
+          [](std::string& name) { return name.ends_with(".glb") ? "" : "'" + name + "' does not end in .glb"; }, ""));
+  add_bake_options(*command, params);
+  command->add_option("--bands", params.bands, "Bands n: n*n coefficients of degrees 0 … n-1 for each vertex")
+      ->capture_default_str()
+      ->check(CLI::Range(1, kMaxTransferBands).description(fmt::format("1 to {}", kMaxTransferBands)));
+  const std::map<std::string, TransferMethod> methods = {{"best", TransferMethod::kBest},
+                                                         {"monte-carlo", TransferMethod::kMonteCarlo}};
+  command->add_option("--method", params.method, "The best there is for each kind, or the thesis's random samples")
+      ->transform(CLI::CheckedTransformer(methods).description(""))
+      ->type_name("best|monte-carlo")
+      ->default_str("best");
+  command->add_option("--seed", params.seed, "Another seed, other samples")->capture_default_str();
+  command->add_option("--threads", params.threads, "0: all; the result is the same for any number")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024).description("0 to 1024"));
+  command->add_flag("--json", arguments->json, "Print on stdout what it took, as JSON");
+  command->footer(
+      "Examples:\n  shlight bake statue.obj -o statue.glb\n"
+      "  shlight bake builtin:scene -o scene.glb --transfer interreflected --bands 5 --bounces 3\n"
+      "Stopped with Ctrl-C, the same command goes on from where it was.");
+  command->callback([command, arguments, &run] {
+    check_options(*command, arguments->params);
+    run = [arguments] { run_bake(*arguments); };
+  });
+}
+
+}  // namespace shlight::app

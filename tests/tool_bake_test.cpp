@@ -1,0 +1,137 @@
+// shlight bake, and shlight info of what it writes.
+
+#include <gtest/gtest.h>
+
+#include "shlight/scene/builtin_scene.h"
+#include "shlight/scene/load_scene.h"
+#include "shlight/transfer/baked_file.h"
+#include "tool_test_util.h"
+
+namespace shlight {
+namespace {
+
+BakeParams cosine_params(int bands) {
+  BakeParams params;
+  params.kind = TransferKind::kCosine;
+  params.bands = bands;
+  return params;
+}
+
+class ToolBake : public ToolTest {};
+
+TEST_F(ToolBake, WritesWhatTheLibraryBakes) {
+  const std::string file = path("sphere.glb");
+  const auto json = run_json({"bake", "builtin:sphere", "-o", file, "--transfer", "cosine", "--bands", "4"});
+  const Scene scene = make_sphere_scene();
+  EXPECT_EQ(json["vertices"], num_vertices(scene));
+  EXPECT_EQ(json["triangles"], num_triangles(scene));
+  EXPECT_EQ(json["bytes_per_vertex"], baked_bytes_per_vertex(4, 1));
+  EXPECT_EQ(json["file_bytes"], std::filesystem::file_size(file));
+  for (const char* key : {"rays", "seconds", "rays_per_second"}) EXPECT_TRUE(json[key].is_number()) << key;
+  EXPECT_EQ(contents().size(), 1u) << "no checkpoint is left";
+
+  const Baked baked = load_baked(file);
+  const Transfer transfer = bake_transfer(scene, cosine_params(4));
+  EXPECT_EQ(baked.transfer.coefficients, transfer.coefficients);
+  EXPECT_EQ(baked.info.params.kind, TransferKind::kCosine);
+  EXPECT_EQ(baked.info.model, "builtin:sphere");
+}
+
+TEST_F(ToolBake, InfoTellsEverything) {
+  const std::string file = path("scene.glb");
+  const auto bake = run_json({"bake", "builtin:scene", "-o", file, "--transfer", "cosine", "--bands", "3"});
+  const auto info = run_json({"info", file});
+  const auto model = run_json({"info", "builtin:scene"});
+  EXPECT_EQ(info["kind"], "baked");
+  EXPECT_EQ(info["transfer"], "cosine");
+  EXPECT_EQ(info["model"], "builtin:scene");
+  EXPECT_EQ(info["bands"], 3);
+  EXPECT_EQ(info["channels"], 1);
+  EXPECT_EQ(info["settings"]["method"], "best");
+  for (const char* key : {"vertices", "triangles", "meshes", "instances", "materials", "bounds_min", "bounds_max"})
+    EXPECT_EQ(info[key], model[key]) << key;
+  for (const char* key : {"vertices", "rays", "hash", "bytes_per_vertex"}) EXPECT_EQ(info[key], bake[key]) << key;
+}
+
+// What is baked is a MODEL to every command, baking too.
+TEST_F(ToolBake, ABakedFileIsAModel) {
+  run({"bake", "builtin:knot", "-o", path("a.glb"), "--transfer", "cosine", "--bands", "2"});
+  const Scene scene = load_scene(path("a.glb"));
+  EXPECT_TRUE(scene.warnings.empty());
+  EXPECT_EQ(num_triangles(scene), num_triangles(make_knot_scene()));
+  run({"bake", path("a.glb"), "-o", path("b.glb"), "--transfer", "cosine", "--bands", "2"});
+  const Transfer a = load_baked(path("a.glb")).transfer, b = load_baked(path("b.glb")).transfer;
+  EXPECT_EQ(a.coefficients.size(), b.coefficients.size());
+}
+
+// The convention is that of coefficient files, key for key, but for what is measured.
+TEST_F(ToolBake, ConventionIsThatOfCoefficientFiles) {
+  run({"bake", "builtin:sphere", "-o", path("a.glb"), "--transfer", "cosine"});
+  const std::string text = text_of(path("a.glb"));
+  auto light = run_json({"project", "builtin:axes"})["convention"];
+  light.erase("quantity");
+  light.erase("frame");
+  for (const auto& [key, value] : light.items())
+    EXPECT_NE(text.find("\"" + key + "\":" + value.dump()), std::string::npos) << key;
+}
+
+TEST_F(ToolBake, WhatCannotBeWrittenIsToldBeforeBaking) {
+  std::filesystem::create_directory(folder_ / "folder.glb");
+  for (const auto& [output, wrong] : {std::pair{path("missing/a.glb"), "cannot be written ("},
+                                      {path("folder.glb"), "is not a regular file"},
+                                      {std::string("/proc/a.glb"), "cannot be written ("}})
+    // Were it baked first, this would take hours.
+    expect_refused({"bake", "builtin:scene", "-o", output, "--transfer", "cosine", "--method", "monte-carlo",
+                    "--samples", "65536", "--bands", "16"},
+                   output, wrong);
+}
+
+TEST_F(ToolBake, AFailureLeavesTheOldFile) {
+  const std::string file = write("a.glb", "old");
+  expect_refused({"bake", path("missing.obj"), "-o", file}, path("missing.obj"), "is not there");
+  expect_refused({"bake", write("empty.obj", "v 0 0 0\n"), "-o", file}, path("empty.obj"), "");
+  EXPECT_EQ(text_of(file), "old");
+  run({"bake", "builtin:sphere", "-o", file, "--transfer", "cosine"});
+  EXPECT_TRUE(is_baked_file(file));
+}
+
+TEST_F(ToolBake, DamagedFilesAreRefused) {
+  run({"bake", "builtin:sphere", "-o", path("a.glb"), "--transfer", "cosine", "--bands", "2"});
+  std::string file = text_of(path("a.glb"));
+  expect_refused({"info", write("cut.glb", file.substr(0, file.size() / 2))}, path("cut.glb"), "is cut short");
+  file[file.size() / 2] ^= 1;
+  expect_refused({"info", write("changed.glb", file)}, path("changed.glb"), "has been changed");
+  file = text_of(path("a.glb"));
+  const std::string version = "{\"shlight\":{\"version\":1";
+  const std::size_t at = file.find(version);
+  ASSERT_NE(at, std::string::npos);
+  file[at + version.size() - 1] = '7';
+  expect_refused({"info", write("new.glb", file)}, path("new.glb"), "is of version 7");
+}
+
+TEST_F(ToolBake, WrongUsageIsExplained) {
+  const std::string glb = path("a.glb");
+  for (const auto& [arguments, named] :
+       {std::pair<std::vector<std::string>, std::string>{{}, "MODEL is required"},
+        {{"builtin:sphere"}, "--output is required"},
+        {{"builtin:sphere", "-o", path("a.gltf")}, "does not end in .glb"},
+        {{"builtin:sphere", "-o", glb, "--transfer", "lit"}, "lit"},
+        {{"builtin:sphere", "-o", glb, "--bands", "17"}, "--bands: Value 17 not in range 1 to 16"},
+        {{"builtin:sphere", "-o", glb, "--samples", "0"}, "'0' is neither auto nor a number"},
+        {{"builtin:sphere", "-o", glb, "--method", "monte-carlo"}, "monte-carlo needs a number of samples"},
+        {{"builtin:sphere", "-o", glb, "--transfer", "cosine", "--samples", "9"}, "takes none"},
+        {{"builtin:sphere", "-o", glb, "--bounces", "2"}, "only with --transfer interreflected"},
+        {{"builtin:sphere", "-o", glb, "--transfer", "interreflected", "--method", "monte-carlo", "--samples", "9"},
+         "cosine and shadowed transfer only"}}) {
+    std::vector<std::string> all = {"bake"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const ToolRun run = run_tool(all);
+    const auto where = testing::Message() << testing::PrintToString(all) << "\n" << run;
+    EXPECT_EQ(run.exit_code, 2) << where;
+    EXPECT_NE(run.err.find(named), std::string::npos) << where;
+  }
+  EXPECT_TRUE(contents().empty());
+}
+
+}  // namespace
+}  // namespace shlight
