@@ -53,6 +53,24 @@ TEST_F(ToolBake, InfoTellsEverything) {
   for (const char* key : {"vertices", "rays", "hash", "bytes_per_vertex"}) EXPECT_EQ(info[key], bake[key]) << key;
 }
 
+// Half and a quarter of the bytes, for errors of about one step: 1/32767 and 1/127 of the largest coefficients.
+TEST_F(ToolBake, FewerBitsCostLittle) {
+  const std::vector<std::string> bake = {"bake", "builtin:sphere", "-o", path("a.glb"), "--transfer", "cosine"};
+  const auto with = [&](const std::string& bits) {
+    std::vector<std::string> arguments = bake;
+    arguments.insert(arguments.end(), {"--compress", bits});
+    return run_json(arguments);
+  };
+  const auto half = with("16"), quarter = with("8"), whole = run_json(bake);
+  EXPECT_EQ(whole["bytes_per_vertex"], 7 * 16 + 16);
+  EXPECT_EQ(half["bytes_per_vertex"], 7 * 8 + 16);
+  EXPECT_EQ(quarter["bytes_per_vertex"], 7 * 4 + 16);
+  EXPECT_EQ(whole["shading_error"]["max"], 0);
+  EXPECT_LT(half["shading_error"]["rms"].get<double>(), 1e-4);
+  EXPECT_LT(quarter["shading_error"]["rms"].get<double>(), 2e-2);
+  EXPECT_GT(quarter["shading_error"]["rms"].get<double>(), half["shading_error"]["rms"].get<double>());
+}
+
 // What is baked is a MODEL to every command, baking too.
 TEST_F(ToolBake, ABakedFileIsAModel) {
   run({"bake", "builtin:knot", "-o", path("a.glb"), "--transfer", "cosine", "--bands", "2"});

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -10,6 +11,7 @@
 #include "shlight/core/error.h"
 #include "shlight/scene/load_scene.h"
 #include "shlight/transfer/baked_file.h"
+#include "shlight/transfer/quantise.h"
 
 namespace shlight::app {
 namespace {
@@ -18,6 +20,7 @@ struct BakeArguments {
   std::string model;
   std::filesystem::path output;
   BakeParams params;
+  int bits = 32;
   bool json = false;
 };
 
@@ -47,26 +50,49 @@ Transfer bake(const Scene& scene, const BakeParams& params, BakeStatus& status) 
   }
 }
 
+// What fewer bits cost under the built-in lights from several sides, in the worst case.
+ShadingError worst_shading_error(const Transfer& transfer, int bits) {
+  const Transfer quantised = quantise_transfer(transfer, bits);
+  ShadingError worst;
+  for (const char* name : {"builtin:sky", "builtin:studio", "builtin:axes", "builtin:thesis"}) {
+    const RgbCoefficients light = load_light(name).light->project(transfer.bands);
+    for (const double turn : {0.0, 1.3, 2.6, 3.9}) {
+      const Rotation rotation = rotation_zyz(turn, 2 * turn, 3 * turn);
+      const ShadingError error = measure_shading_error(transfer, quantised, rotate(rotation, light));
+      worst = {std::max(worst.rms, error.rms), std::max(worst.max, error.max)};
+    }
+  }
+  return worst;
+}
+
 void run_bake(const BakeArguments& arguments) {
   const Scene scene = make_scene(arguments.model);
   for (const std::string& warning : scene.warnings) spdlog::warn("{}: {}", arguments.model, warning);
   BakeParams params = arguments.params;
   params.checkpoint = arguments.output.string() + ".checkpoint";
   // Not after hours of baking.
-  check_savable(arguments.output, scene, params);
+  const BakeInfo info = {params, arguments.model, arguments.bits};
+  check_savable(arguments.output, scene, info);
 
   BakeStatus status;
   const Transfer transfer = bake(scene, params, status);
-  save_baked(arguments.output, scene, transfer, {params, arguments.model});
+  save_baked(arguments.output, scene, transfer, info);
   std::error_code error;
   std::filesystem::remove(params.checkpoint, error);
   if (error) spdlog::warn("{}: cannot be deleted ({})", params.checkpoint.string(), error.message());
 
   const double rays_per_second = transfer.seconds > 0 ? static_cast<double>(status.rays) / transfer.seconds : 0;
-  const std::size_t bytes_per_vertex = baked_bytes_per_vertex(transfer.bands, transfer.channels);
+  const std::size_t bytes_per_vertex = baked_bytes_per_vertex(transfer.bands, transfer.channels, info.bits);
   spdlog::info("{}: {} transfer of {} vertices, {} bands, {} bytes a vertex, {:.3g} million rays in {:.3g} s",
                arguments.output.string(), to_text(transfer.kind), transfer.num_vertices(), transfer.bands,
                bytes_per_vertex, 1e-6 * static_cast<double>(transfer.rays), transfer.seconds);
+  ShadingError cost;
+  if (info.bits < 32) {
+    cost = worst_shading_error(transfer, info.bits);
+    spdlog::info(
+        "{} bits change the radiance under built-in lights by {:.2g} at most (root mean square), {:.2g} at worst",
+        info.bits, cost.rms, cost.max);
+  }
   if (arguments.json)
     print_json({{"file", arguments.output.string()},
                 {"transfer", to_text(transfer.kind)},
@@ -78,6 +104,8 @@ void run_bake(const BakeArguments& arguments) {
                 {"seconds", transfer.seconds},
                 {"rays_per_second", rays_per_second},
                 {"bytes_per_vertex", bytes_per_vertex},
+                {"bits", info.bits},
+                {"shading_error", {{"rms", cost.rms}, {"max", cost.max}}},
                 {"file_bytes", std::filesystem::file_size(arguments.output)},
                 {"hash", fmt::format("{:016x}", transfer.hash)}});
 }
@@ -111,6 +139,9 @@ void add_bake(CLI::App& program, Run& run) {
   command->add_option("--bands", params.bands, "Bands n: n*n coefficients of degrees 0 … n-1 for each vertex")
       ->capture_default_str()
       ->check(CLI::Range(1, kMaxTransferBands).description(fmt::format("1 to {}", kMaxTransferBands)));
+  command->add_option("--compress", arguments->bits, "Bits of a coefficient: 16 or 8 instead of a float's 32")
+      ->type_name("16|8")
+      ->check(CLI::IsMember({"16", "8"}).description(""));
   const std::map<std::string, TransferMethod> methods = {{"best", TransferMethod::kBest},
                                                          {"monte-carlo", TransferMethod::kMonteCarlo}};
   command->add_option("--method", params.method, "The best there is for each kind, or the thesis's random samples")

@@ -104,7 +104,8 @@ ordered_json info_of(const Baked& baked) {
   json["transfer"] = to_text(transfer.kind);
   json["bands"] = transfer.bands;
   json["channels"] = transfer.channels;
-  json["bytes_per_vertex"] = baked_bytes_per_vertex(transfer.bands, transfer.channels);
+  json["bits"] = info.bits;
+  json["bytes_per_vertex"] = baked_bytes_per_vertex(transfer.bands, transfer.channels, info.bits);
   json["rays"] = transfer.rays;
   json["seconds"] = transfer.seconds;
   json["hash"] = fmt::format("{:016x}", transfer.hash);

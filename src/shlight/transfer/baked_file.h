@@ -20,6 +20,7 @@ namespace shlight {
 struct BakeInfo {
   BakeParams params;  // what it was baked with; threads, tracer and checkpoint are not kept
   std::string model;  // what was baked, in words for people
+  int bits = 32;      // of each coefficient in the file: 32 for floats as they are, 16 or 8 (quantise.h)
 };
 
 struct Baked {
@@ -29,8 +30,8 @@ struct Baked {
 };
 
 // Writes a baked file whole or not at all. `transfer` is bake_transfer's of `scene`. Every float comes back with the
-// bits it had. Throws Error, also where a mesh is shown that has no triangle, or where the file would be larger than
-// 4 GiB.
+// bits it had, but for coefficients of fewer than 32 bits: those as quantise_transfer has them. Throws Error, also
+// where a mesh is shown that has no triangle, or where the file would be larger than 4 GiB.
 void save_baked(const std::filesystem::path& path, const Scene& scene, const Transfer& transfer, const BakeInfo& info);
 
 // The bytes of that file. `name` is used in errors.
@@ -52,11 +53,11 @@ inline bool still_fits(const Transfer& transfer, const Scene& scene, const BakeP
 }
 
 // What a baked file holds for each vertex beside its mesh: transfer, ambient occlusion, bent normal.
-std::size_t baked_bytes_per_vertex(int bands, int channels);
+std::size_t baked_bytes_per_vertex(int bands, int channels, int bits = 32);
 
 // Throws the Error that save_baked would, as far as can be told before baking: the folder is not there, or not
 // writable, or the file would be larger than 4 GiB.
-void check_savable(const std::filesystem::path& path, const Scene& scene, const BakeParams& params);
+void check_savable(const std::filesystem::path& path, const Scene& scene, const BakeInfo& info);
 
 // "cosine", "shadowed", "interreflected"; nothing where there is no such kind.
 std::string_view to_text(TransferKind kind);

@@ -20,6 +20,7 @@
 #include "shlight/sh/coefficients.h"
 #include "shlight/transfer/baked_format.h"
 #include "shlight/transfer/glb.h"
+#include "shlight/transfer/quantise.h"
 
 namespace shlight {
 namespace {
@@ -190,6 +191,28 @@ TEST(BakedFile, ComesBackWithTheSameBits) {
     }
 }
 
+TEST(BakedFile, FewerBitsComeBackAsQuantised) {
+  const Scene scene = make_busy_scene();
+  for (const int bits : {8, 16})
+    for (const int channels : {1, 3}) {
+      const Transfer transfer = make_any_transfer(scene, 3, channels);
+      BakeInfo info = make_info(transfer);
+      info.bits = bits;
+      const std::vector<std::byte> file = format_baked(scene, transfer, info, "a.glb");
+      const Baked back = load_baked(file, "a.glb");
+      expect_same(scene, back.scene);
+      EXPECT_EQ(back.info.bits, bits);
+      EXPECT_TRUE(same_bits(back.transfer.coefficients, quantise_transfer(transfer, bits).coefficients));
+      EXPECT_TRUE(same_bits(back.transfer.ambient_occlusion, transfer.ambient_occlusion));
+      EXPECT_EQ(baked_bytes_per_vertex(3, channels, bits), static_cast<std::size_t>(channels * 3 * bits / 2 + 16));
+      EXPECT_NE(error_of(changed(file, [](auto& root) { root["asset"]["extras"]["shlight"]["scales"].erase(0); }))
+                    .find("scales are not one for each"),
+                std::string::npos);
+      EXPECT_NE(error_of(changed(file, [](auto& root) { root["asset"]["extras"]["shlight"]["bits"] = 32; })),
+                "no error");
+    }
+}
+
 TEST(BakedFile, BuiltinScenesComeBack) {
   for (const Scene& scene : {make_sphere_scene(8), make_still_life_scene()}) {
     const Transfer transfer = bake_transfer(scene, cosine_params(3));
@@ -242,14 +265,20 @@ TEST(BakedFile, IsValidGltf) {
   const char* const validator = std::getenv("SHLIGHT_GLTF_VALIDATOR");
   if (!validator) GTEST_SKIP() << "SHLIGHT_GLTF_VALIDATOR names no folder";
   const TemporaryFolder folder;
-  for (const int channels : {1, 3}) {
-    write_file(folder / "busy.glb", make_file(5, channels));
+  for (const int bits : {8, 16, 32}) {
+    const Scene scene = make_busy_scene();
+    const Transfer transfer = make_any_transfer(scene, 5, bits == 32 ? 1 : 3);
+    BakeInfo info = make_info(transfer);
+    info.bits = bits;
+    save_baked(folder / "busy.glb", scene, transfer, info);
     const std::string command = fmt::format(
-        "cd '{}' && node -e \"require('gltf-validator').validateBytes(new Uint8Array(require('fs').readFileSync('{}')))"
-        ".then(r => {{ const i = r.issues; console.log(JSON.stringify(i.messages)); "
+        "cd '{}' && node -e \"require('gltf-validator').validateBytes(new "
+        "Uint8Array(require('fs').readFileSync('{}')))"
+        ".then(r => {{ const i = r.issues; "
+        "console.log(JSON.stringify(i.messages)); "
         "process.exit(i.numErrors + i.numWarnings) }})\"",
         validator, (folder / "busy.glb").string());
-    EXPECT_EQ(std::system(command.c_str()), 0) << channels;
+    EXPECT_EQ(std::system(command.c_str()), 0) << bits;
   }
 }
 
@@ -338,6 +367,7 @@ TEST(BakedFile, WhatIsWrongIsSaid) {
   expect("version is no whole number", [&](Json& r) { extras(r)["version"] = "new"; });
   expect("bands is 17 and not 1 to 16", [&](Json& r) { extras(r)["bands"] = 17; });
   expect("_SH_TRANSFER_1 is missing", [&](Json& r) { extras(r)["bands"] = 3; });
+  expect("bytes are to come", [&](Json& r) { extras(r)["bands"] = 16; });
   expect("_SH_TRANSFER_R_0 is missing", [&](Json& r) { extras(r)["channels"] = 3; });
   expect("two channels", [&](Json& r) { extras(r)["channels"] = 2; });
   expect("a kind that is not known", [&](Json& r) { extras(r)["kind"] = "lit"; });

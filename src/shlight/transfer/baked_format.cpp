@@ -71,26 +71,26 @@ nlohmann::ordered_json baked_convention() {
           {"color", "linear Rec. 709"}};
 }
 
-std::size_t baked_bytes_per_vertex(int bands, int channels) {
-  const auto floats = static_cast<std::size_t>(4 * channels * num_transfer_attributes(bands));
-  return sizeof(float) * floats + sizeof(float) + sizeof(Vec3f);
+std::size_t baked_bytes_per_vertex(int bands, int channels, int bits) {
+  const auto coefficients = static_cast<std::size_t>(4 * channels * num_transfer_attributes(bands));
+  return coefficients * static_cast<std::size_t>(bits) / 8 + sizeof(float) + sizeof(Vec3f);
 }
 
-std::uint64_t estimate_baked_bytes(const Scene& scene, int bands, int channels) {
+std::uint64_t estimate_baked_bytes(const Scene& scene, int bands, int channels, int bits) {
   constexpr std::uint64_t kJsonBytes = 1 << 12, kAccessorBytes = 200;
   const auto accessors = static_cast<std::uint64_t>(channels * num_transfer_attributes(bands) + 8);
   std::uint64_t bytes = kJsonBytes + scene.instances.size() * accessors * kAccessorBytes;
-  bytes += num_vertices(scene) * baked_bytes_per_vertex(bands, channels);
+  bytes += num_vertices(scene) * baked_bytes_per_vertex(bands, channels, bits);
   for (const Mesh& mesh : scene.meshes)
     bytes += sizeof(Vec3f) * (mesh.positions.size() + mesh.normals.size() + mesh.colors.size()) +
              sizeof(Vec2f) * mesh.texcoords.size() + sizeof(std::uint32_t) * mesh.indices.size();
   return bytes;
 }
 
-void check_savable(const std::filesystem::path& path, const Scene& scene, const BakeParams& params) {
+void check_savable(const std::filesystem::path& path, const Scene& scene, const BakeInfo& info) {
   check_writable(path);
-  const int channels = params.kind == TransferKind::kInterreflected ? 3 : 1;
-  const std::uint64_t bytes = estimate_baked_bytes(scene, params.bands, channels);
+  const int channels = info.params.kind == TransferKind::kInterreflected ? 3 : 1;
+  const std::uint64_t bytes = estimate_baked_bytes(scene, info.params.bands, channels, info.bits);
   if (bytes > kMaxGlbBytes)
     throw Error(path.string(), fmt::format("would hold about {} bytes", bytes),
                 fmt::format("at most {}: fewer bands, or parts of the scene in files of their own", kMaxGlbBytes));

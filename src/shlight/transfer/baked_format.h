@@ -15,7 +15,8 @@ inline constexpr int kBakedVersion = 1;
 inline constexpr std::string_view kBakedHead = "{\"asset\":{\"extras\":{\"shlight\":{\"version\":";
 
 // glTF's numbers for things.
-inline constexpr int kGltfFloat = 5126, kGltfUnsignedInt = 5125, kGltfArrayBuffer = 34962, kGltfElementBuffer = 34963;
+inline constexpr int kGltfByte = 5120, kGltfShort = 5122, kGltfFloat = 5126, kGltfUnsignedInt = 5125,
+                     kGltfArrayBuffer = 34962, kGltfElementBuffer = 34963;
 
 inline constexpr const char* kOcclusionAttribute = "_AMBIENT_OCCLUSION";
 inline constexpr const char* kBentNormalAttribute = "_BENT_NORMAL";
@@ -25,7 +26,7 @@ std::string transfer_attribute(int channels, int channel, int k);
 int num_transfer_attributes(int bands);
 
 // About how large a file becomes, its textures apart.
-std::uint64_t estimate_baked_bytes(const Scene& scene, int bands, int channels);
+std::uint64_t estimate_baked_bytes(const Scene& scene, int bands, int channels, int bits = 32);
 
 // The convention of light's coefficient files, but for the quantity.
 nlohmann::ordered_json baked_convention();

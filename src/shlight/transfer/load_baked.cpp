@@ -20,6 +20,7 @@
 #include "shlight/sh/coefficients.h"
 #include "shlight/transfer/baked_format.h"
 #include "shlight/transfer/glb.h"
+#include "shlight/transfer/quantise.h"
 
 namespace shlight {
 namespace {
@@ -104,14 +105,22 @@ class Reader {
     return binary_.subspan(offset, size);
   }
 
+  // Before memory is taken for what so many bytes are to fill.
+  void expect_left(std::uint64_t bytes) const {
+    if (bytes > bytes_left_) fail(fmt::format("{} bytes are to come, and {} are left", bytes, bytes_left_));
+  }
+
   // The values of an accessor, all finite where they are floats. T is what one of `type` lies in memory as.
   template <class T>
   std::vector<T> take(const json& index_value, std::string_view type, int component_type = kGltfFloat) {
     const json& accessor = item(index_value, "accessors");
     if (text(accessor, "type") != type) fail(fmt::format("an accessor that is no {}", type));
     whole(accessor, "componentType", component_type, component_type);
-    if (accessor.contains("sparse") || accessor.contains("byteOffset") || accessor.contains("normalized"))
-      fail("an accessor that is sparse, normalized or has a byteOffset");
+    if (accessor.contains("sparse") || accessor.contains("byteOffset"))
+      fail("an accessor that is sparse or has a byteOffset");
+    const bool normalized = component_type == kGltfByte || component_type == kGltfShort;
+    if (accessor.contains("normalized") ? accessor["normalized"] != normalized : normalized)
+      fail("an accessor that is normalized, or is not");
     const auto bytes = take_view(member(accessor, "bufferView"));
     const std::uint64_t count = whole(accessor, "count", 1, bytes.size() / sizeof(T));
     if (bytes.size() != count * sizeof(T)) fail("an accessor that is shorter than its bufferView");
@@ -126,8 +135,9 @@ class Reader {
     return values;
   }
   template <class T>
-  std::vector<T> take_rows(const json& attributes, const char* key, std::string_view type, std::size_t vertices) {
-    std::vector<T> values = take<T>(member(attributes, key), type);
+  std::vector<T> take_rows(const json& attributes, const char* key, std::string_view type, std::size_t vertices,
+                           int component_type = kGltfFloat) {
+    std::vector<T> values = take<T>(member(attributes, key), type, component_type);
     if (values.size() != vertices) fail(fmt::format("{} {} for {} vertices", values.size(), key, vertices));
     return values;
   }
@@ -268,28 +278,46 @@ void read_textures(Reader& reader, const std::string& name, Scene& scene) {
   }
 }
 
-void read_transfer(Reader& reader, std::span<const Placed> placed, const Scene& scene, Transfer& transfer) {
+// The coefficients of one instance, whose first vertex is `first`, from what lies in the file as Number.
+template <class Number, class Decode>
+void read_coefficients(Reader& reader, const json& attributes, int component_type, std::size_t first,
+                       std::size_t vertices, Transfer& transfer, Decode&& decode) {
   const auto n = static_cast<std::size_t>(num_coefficients(transfer.bands));
   const auto channels = static_cast<std::size_t>(transfer.channels);
+  for (std::size_t c = 0; c < channels; ++c)
+    for (int k = 0; k < num_transfer_attributes(transfer.bands); ++k) {
+      const std::string key = transfer_attribute(transfer.channels, static_cast<int>(c), k);
+      const auto row =
+          reader.take_rows<std::array<Number, 4>>(attributes, key.c_str(), "VEC4", vertices, component_type);
+      const auto from = 4 * static_cast<std::size_t>(k), size = std::min<std::size_t>(4, n - from);
+      for (std::size_t v = 0; v < vertices; ++v)
+        for (std::size_t i = 0; i < size; ++i)
+          transfer.coefficients[((first + v) * channels + c) * n + from + i] = decode(row[v][i], c * n + from + i);
+    }
+}
+
+void read_transfer(Reader& reader, std::span<const Placed> placed, const Scene& scene, int bits,
+                   std::span<const float> scales, Transfer& transfer) {
+  const auto row = static_cast<std::size_t>(transfer.channels * num_coefficients(transfer.bands));
+  const auto decode = [&](int number, std::size_t i) { return dequantise(number, scales[i], bits); };
   transfer.first_vertex.push_back(0);
   for (std::size_t i = 0; i < placed.size(); ++i) {
     const json& attributes = reader.member(primitive_of(reader, placed[i].mesh), "attributes");
     const std::size_t first = transfer.num_vertices();
     const std::size_t vertices = scene.meshes[scene.instances[i].mesh].positions.size();
-    // First what is small: no memory for coefficients of vertices whose transfer is not there.
     const auto occlusion = reader.take_rows<float>(attributes, kOcclusionAttribute, "SCALAR", vertices);
     const auto bent = reader.take_rows<Vec3f>(attributes, kBentNormalAttribute, "VEC3", vertices);
     transfer.ambient_occlusion.insert(transfer.ambient_occlusion.end(), occlusion.begin(), occlusion.end());
     transfer.bent_normals.insert(transfer.bent_normals.end(), bent.begin(), bent.end());
-    transfer.coefficients.resize((first + vertices) * channels * n);
-    for (std::size_t c = 0; c < channels; ++c)
-      for (int k = 0; k < num_transfer_attributes(transfer.bands); ++k) {
-        const std::string key = transfer_attribute(transfer.channels, static_cast<int>(c), k);
-        const auto row = reader.take_rows<std::array<float, 4>>(attributes, key.c_str(), "VEC4", vertices);
-        const auto from = 4 * static_cast<std::size_t>(k), size = std::min<std::size_t>(4, n - from);
-        for (std::size_t v = 0; v < vertices; ++v)
-          std::copy_n(row[v].begin(), size, &transfer.coefficients[((first + v) * channels + c) * n + from]);
-      }
+    reader.expect_left(vertices * row * static_cast<std::uint64_t>(bits) / 8);
+    transfer.coefficients.resize((first + vertices) * row);
+    if (bits == 8)
+      read_coefficients<std::int8_t>(reader, attributes, kGltfByte, first, vertices, transfer, decode);
+    else if (bits == 16)
+      read_coefficients<std::int16_t>(reader, attributes, kGltfShort, first, vertices, transfer, decode);
+    else
+      read_coefficients<float>(reader, attributes, kGltfFloat, first, vertices, transfer,
+                               [](float a, std::size_t) { return a; });
     transfer.first_vertex.push_back(transfer.num_vertices());
   }
 }
@@ -302,6 +330,8 @@ void read_extras(const Reader& reader, const json& extras, Baked& baked) {
   transfer.bands = static_cast<int>(reader.whole(extras, "bands", 1, kMaxTransferBands));
   transfer.channels = static_cast<int>(reader.whole(extras, "channels", 1, 3));
   if (transfer.channels == 2) reader.fail("two channels");
+  info.bits = static_cast<int>(reader.whole(extras, "bits", 8, 32));
+  if (!is_transfer_bits(info.bits)) reader.fail("bits are not 8, 16 or 32");
   transfer.hash = reader.hexadecimal(extras, "hash");
   transfer.rays = reader.whole(extras, "rays", 0, std::numeric_limits<std::uint64_t>::max());
   transfer.seconds = reader.number(reader.member(extras, "seconds"), "seconds");
@@ -319,6 +349,17 @@ void read_extras(const Reader& reader, const json& extras, Baked& baked) {
   info.params.bounces = static_cast<int>(reader.whole(settings, "bounces", 0, kMostInt));
   info.params.seed = reader.whole(settings, "seed", 0, std::numeric_limits<std::uint64_t>::max());
   info.model = reader.text(extras, "model");
+}
+
+// The scales of coefficients that are not floats, for each of each channel.
+std::vector<float> read_scales(const Reader& reader, const json& extras, const Baked& baked) {
+  if (baked.info.bits == 32) return {};
+  const json& values = reader.member(extras, "scales");
+  const auto count = static_cast<std::size_t>(baked.transfer.channels * num_coefficients(baked.transfer.bands));
+  if (!values.is_array() || values.size() != count) reader.fail("scales are not one for each coefficient");
+  std::vector<float> scales;
+  for (const json& value : values) scales.push_back(static_cast<float>(reader.number(value, "a scale")));
+  return scales;
 }
 
 json parse_json(std::string_view text, const std::string& name) {
@@ -359,7 +400,7 @@ Baked load_baked(std::span<const std::byte> bytes, const std::string& name) {
   for (const json& node : nodes) placed.push_back(read_node(reader, reader.item(node, "nodes")));
   read_meshes(reader, placed, baked.scene);
   read_textures(reader, name, baked.scene);
-  read_transfer(reader, placed, baked.scene, baked.transfer);
+  read_transfer(reader, placed, baked.scene, baked.info.bits, read_scales(reader, extras, baked), baked.transfer);
   return baked;
 }
 

@@ -14,6 +14,7 @@
 #include "shlight/transfer/baked_format.h"
 #include "shlight/transfer/glb.h"
 #include "shlight/transfer/gltf_nodes.h"
+#include "shlight/transfer/quantise.h"
 
 namespace shlight {
 namespace {
@@ -91,22 +92,43 @@ std::map<std::uint32_t, SharedMesh> add_meshes(Rows& rows, const Scene& scene, c
   return shared;
 }
 
-void add_transfer(Rows& rows, const Transfer& transfer, std::size_t instance, ordered_json& attributes) {
+// How a coefficient lies in the file: as Number, made of it by `encode` with its scale.
+template <class Number, class Encode>
+void add_transfer(Rows& rows, const Transfer& transfer, std::span<const float> scales, std::size_t instance,
+                  int component_type, ordered_json& attributes, Encode&& encode) {
   const std::size_t first = transfer.first_vertex[instance];
   const std::size_t count = transfer.first_vertex[instance + 1] - first;
   const auto n = static_cast<std::size_t>(num_coefficients(transfer.bands));
   const auto channels = static_cast<std::size_t>(transfer.channels);
-  std::vector<std::array<float, 4>> row(count);
+  std::vector<std::array<Number, 4>> row(count);
   for (int c = 0; c < transfer.channels; ++c)
     for (int k = 0; k < num_transfer_attributes(transfer.bands); ++k) {
       const auto from = 4 * static_cast<std::size_t>(k), size = std::min<std::size_t>(4, n - from);
       for (std::size_t v = 0; v < count; ++v) {
         const float* a = &transfer.coefficients[((first + v) * channels + static_cast<std::size_t>(c)) * n + from];
-        std::copy_n(a, size, row[v].begin());
-        std::fill(row[v].begin() + static_cast<std::ptrdiff_t>(size), row[v].end(), 0.0f);
+        row[v] = {};
+        for (std::size_t i = 0; i < size; ++i)
+          row[v][i] = encode(a[i], scales[static_cast<std::size_t>(c) * n + from + i]);
       }
-      attributes[transfer_attribute(transfer.channels, c, k)] = rows.add(std::span(std::as_const(row)), "VEC4");
+      attributes[transfer_attribute(transfer.channels, c, k)] =
+          rows.add(std::span(std::as_const(row)), "VEC4", component_type);
+      if (component_type != kGltfFloat) rows.accessors.back()["normalized"] = true;
     }
+}
+
+void add_transfer(Rows& rows, const Transfer& transfer, int bits, std::span<const float> scales, std::size_t instance,
+                  ordered_json& attributes) {
+  const auto encode = [bits](float a, float scale) { return quantise(a, scale, bits); };
+  if (bits == 8)
+    add_transfer<std::int8_t>(rows, transfer, scales, instance, kGltfByte, attributes,
+                              [&](float a, float scale) { return static_cast<std::int8_t>(encode(a, scale)); });
+  else if (bits == 16)
+    add_transfer<std::int16_t>(rows, transfer, scales, instance, kGltfShort, attributes,
+                               [&](float a, float scale) { return static_cast<std::int16_t>(encode(a, scale)); });
+  else
+    add_transfer<float>(rows, transfer, scales, instance, kGltfFloat, attributes, [](float a, float) { return a; });
+  const std::size_t first = transfer.first_vertex[instance];
+  const std::size_t count = transfer.first_vertex[instance + 1] - first;
   attributes[kOcclusionAttribute] = rows.add(std::span(transfer.ambient_occlusion).subspan(first, count), "SCALAR");
   attributes[kBentNormalAttribute] = rows.add(std::span(transfer.bent_normals).subspan(first, count), "VEC3");
 }
@@ -167,13 +189,15 @@ std::size_t add_node(ordered_json& nodes, const Mat4f& to_world, std::size_t mes
   return nodes.size() - 1;
 }
 
-ordered_json json_of(const Transfer& transfer, const BakeInfo& info) {
+ordered_json json_of(const Transfer& transfer, const BakeInfo& info, const std::vector<float>& scales) {
   const BakeParams& params = info.params;
   return {{"version", kBakedVersion},
           {"checksum", kEmptyChecksum},
           {"kind", to_text(transfer.kind)},
           {"bands", transfer.bands},
           {"channels", transfer.channels},
+          {"bits", info.bits},
+          {"scales", info.bits == 32 ? std::vector<float>() : scales},
           {"hash", fmt::format("{:016x}", transfer.hash)},
           {"rays", transfer.rays},
           {"seconds", transfer.seconds},
@@ -204,6 +228,8 @@ void check_fits(const Scene& scene, const Transfer& transfer) {
 std::vector<std::byte> format_baked(const Scene& scene, const Transfer& transfer, const BakeInfo& info,
                                     const std::string& name) {
   check_fits(scene, transfer);
+  SHLIGHT_ASSERT_EQ(is_transfer_bits(info.bits), true);
+  const std::vector<float> scales = quantisation_scales(transfer);
   if (scene.instances.empty()) throw Error(name, "would hold no instances", "a scene that shows something");
   Rows rows;
   Materials materials(scene);
@@ -213,7 +239,7 @@ std::vector<std::byte> format_baked(const Scene& scene, const Transfer& transfer
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.meshes[instance.mesh];
     ordered_json attributes = shared[instance.mesh].attributes;
-    add_transfer(rows, transfer, i, attributes);
+    add_transfer(rows, transfer, info.bits, scales, i, attributes);
     meshes.push_back({{"name", mesh.name},
                       {"primitives", list_of({{"attributes", attributes},
                                               {"indices", shared[instance.mesh].indices},
@@ -222,7 +248,8 @@ std::vector<std::byte> format_baked(const Scene& scene, const Transfer& transfer
   }
 
   ordered_json root = {
-      {"asset", {{"extras", {{"shlight", json_of(transfer, info)}}}, {"generator", "shlight"}, {"version", "2.0"}}},
+      {"asset",
+       {{"extras", {{"shlight", json_of(transfer, info, scales)}}}, {"generator", "shlight"}, {"version", "2.0"}}},
       {"scene", 0},
       {"scenes", list_of({{"nodes", roots}})},
       {"nodes", std::move(nodes)},
