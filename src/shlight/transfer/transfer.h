@@ -49,8 +49,8 @@ struct BakeParams {
   TransferMethod method = TransferMethod::kBest;
   int bands = 5;           // 1 … kMaxTransferBands
   int samples = 0;         // rays a vertex, 1 … kMaxTransferSamples; 0: as many as each vertex needs for `error`
-  float error = 0.004f;    // wanted where samples is 0: root mean square over all vertices of the coefficients'
-                           // error, relative to the coefficients' own
+  float error = 0.0037f;   // wanted where samples is 0: root mean square over all vertices of the coefficients' error,
+                           // relative to the coefficients' own; 1e-5 … 1, as far as kMaxTransferSamples can
   int bounces = 3;         // of light between surfaces, kInterreflected only, 0 … 64
   std::uint64_t seed = 1;  // other seeds give other errors of the same size
   int threads = 0;         // at most; 0: all there are. The result has the same bits with any number
@@ -89,6 +89,7 @@ struct Transfer {
   std::uint64_t hash = 0;                 // hash_bake of what it was made from
   std::uint64_t rays = 0;                 // all that it took, over all calls where it went on from a checkpoint
   double seconds = 0;                     // this call's
+  double estimated_error = 0;             // of shadowed transfer, as BakeParams::error; 0 where samples were given
 
   std::size_t num_vertices() const { return ambient_occlusion.size(); }
 };
