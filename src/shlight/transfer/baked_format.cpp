@@ -99,6 +99,9 @@ void check_savable(const std::filesystem::path& path, const Scene& scene, const 
 bool is_baked_file(const std::filesystem::path& path) {
   constexpr std::size_t kJsonAt = 20;  // after the headers of file and chunk
   std::array<char, kJsonAt + kBakedHead.size()> head = {};
+  // Opening a pipe would wait for whoever writes into it.
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
   std::ifstream file(path, std::ios::binary);
   file.read(head.data(), head.size());
   const std::string_view text(head.data(), head.size());
