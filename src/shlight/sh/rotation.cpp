@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <type_traits>
@@ -201,41 +202,59 @@ SHLIGHT_ALWAYS_INLINE inline void rotate_high_degree(int rows, const float* matr
   rotate_rows<1>(rows, matrix + i * rows, values, result + static_cast<std::size_t>(i) * count, count, lanes);
 }
 
-// All degrees of one block of vectors. `matrix` holds the blocks of all degrees one after the other, in float.
-template <class Size>
-SHLIGHT_ALWAYS_INLINE inline void rotate_block(int bands, const float* matrix, const float* values, float* result,
-                                               std::size_t count, Size lanes) {
-  for (int l = 0; l < bands; ++l) {
-    const int rows = 2 * l + 1;
-    const std::size_t first = static_cast<std::size_t>(l) * static_cast<std::size_t>(l) * count;
-    switch (l) {
-      case 0:
-        rotate_degree<1>(matrix, values, result, count, lanes);
-        break;
-      case 1:
-        rotate_degree<3>(matrix, values + first, result + first, count, lanes);
-        break;
-      case 2:
-        rotate_degree<5>(matrix, values + first, result + first, count, lanes);
-        break;
-      case 3:
-        rotate_degree<7>(matrix, values + first, result + first, count, lanes);
-        break;
-      case 4:
-        rotate_degree<9>(matrix, values + first, result + first, count, lanes);
-        break;
-      default:
-        rotate_high_degree(rows, matrix, values + first, result + first, count, lanes);
-    }
-    matrix += rows * rows;
+// One degree of all vectors: `rotate_lanes(first, lanes)` turns the vectors from `first`, sixteen or, of fewer, all.
+// A store across two cache lines costs two: after the first sixteen vectors the next ones start where `result` is
+// aligned, and the last sixteen end where it ends. Some are so turned twice, with the same result.
+template <class RotateLanes>
+SHLIGHT_ALWAYS_INLINE inline void rotate_all(const float* result, std::size_t count, RotateLanes rotate_lanes) {
+  if (count < kLanes) return rotate_lanes(0, count);
+  const std::size_t last = count - kLanes;
+  const std::size_t aligned = kLanes - reinterpret_cast<std::uintptr_t>(result) / sizeof(float) % kLanes;
+  for (std::size_t j = 0, next = aligned;; j = next, next += kLanes) {
+    rotate_lanes(j, std::integral_constant<std::size_t, kLanes>{});
+    if (j == last) return;
+    next = next < last ? next : last;
   }
 }
 
+template <int Rows>
+SHLIGHT_ALWAYS_INLINE inline void rotate_degree_of_all(const float* matrix, const float* values, float* result,
+                                                       std::size_t count) {
+  rotate_all(result, count, [=](std::size_t j, auto lanes) SHLIGHT_ALWAYS_INLINE {
+    rotate_degree<Rows>(matrix, values + j, result + j, count, lanes);
+  });
+}
+
+// `matrix` holds the blocks of all degrees one after the other, in float. Degree by degree, so that few streams of
+// memory are open at a time: with all 25 coefficients of five bands open at once processors fetch ahead too little.
 SHLIGHT_CLONES void rotate_many(int bands, const float* matrix, const float* values, float* result, std::size_t count) {
-  std::size_t j = 0;
-  for (; j + kLanes <= count; j += kLanes)
-    rotate_block(bands, matrix, values + j, result + j, count, std::integral_constant<std::size_t, kLanes>{});
-  if (j < count) rotate_block(bands, matrix, values + j, result + j, count, count - j);
+  for (int l = 0; l < bands; ++l) {
+    const int rows = 2 * l + 1;
+    switch (l) {
+      case 0:
+        rotate_degree_of_all<1>(matrix, values, result, count);
+        break;
+      case 1:
+        rotate_degree_of_all<3>(matrix, values, result, count);
+        break;
+      case 2:
+        rotate_degree_of_all<5>(matrix, values, result, count);
+        break;
+      case 3:
+        rotate_degree_of_all<7>(matrix, values, result, count);
+        break;
+      case 4:
+        rotate_degree_of_all<9>(matrix, values, result, count);
+        break;
+      default:
+        rotate_all(result, count, [=](std::size_t j, auto lanes) SHLIGHT_ALWAYS_INLINE {
+          rotate_high_degree(rows, matrix, values + j, result + j, count, lanes);
+        });
+    }
+    matrix += rows * rows;
+    values += static_cast<std::size_t>(rows) * count;
+    result += static_cast<std::size_t>(rows) * count;
+  }
 }
 
 }  // namespace
@@ -244,8 +263,8 @@ void rotate(const RotationMatrix& matrix, std::span<const float> values, std::sp
   assert(values.size() == count * static_cast<std::size_t>(num_coefficients(matrix.bands())));
   assert(result.size() == values.size());
   std::vector<float> blocks;
-  for (int l = 0; l < matrix.bands(); ++l)
-    for (const double element : matrix.block(l)) blocks.push_back(static_cast<float>(element));
+  blocks.reserve(static_cast<std::size_t>(matrix.bands() * (4 * matrix.bands() * matrix.bands() - 1) / 3));
+  for (int l = 0; l < matrix.bands(); ++l) blocks.insert(blocks.end(), matrix.block(l).begin(), matrix.block(l).end());
   rotate_many(matrix.bands(), blocks.data(), values.data(), result.data(), count);
 }
 

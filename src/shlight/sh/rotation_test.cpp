@@ -104,7 +104,8 @@ TEST(Rotation, AboutZWithoutAMatrix) {
 
 TEST(Rotation, ManyAtOnceInFloatCommuteWithEvaluation) {
   for (const int bands : {1, 2, 3, 5, 8, 32})
-    for (const std::size_t count : {std::size_t{1}, std::size_t{16}, std::size_t{37}}) {
+    for (const std::size_t count :
+         {std::size_t{1}, std::size_t{16}, std::size_t{17}, std::size_t{37}, std::size_t{64}}) {
       const RotationMatrix matrix(bands, oblique_rotation());
       const auto size = static_cast<std::size_t>(num_coefficients(bands));
       std::vector<float> values(size * count), result(values.size());
