@@ -133,6 +133,10 @@ void Program::set(const char* name, std::span<const Vec3f> values) const {
   if (!values.empty()) glUniform3fv(location(name), static_cast<GLsizei>(values.size()), &values[0].x);
 }
 
+void Program::set(const char* name, std::span<const Vec4f> values) const {
+  if (!values.empty()) glUniform4fv(location(name), static_cast<GLsizei>(values.size()), values[0].data());
+}
+
 void Program::set(const char* name, const Mat3f& value) const {
   glUniformMatrix3fv(location(name), 1, GL_FALSE, value.data());
 }

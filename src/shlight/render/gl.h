@@ -58,6 +58,8 @@ using Mat3f = std::array<float, 9>;
 // GLSL's mat3x4: three columns of four.
 using Mat3x4f = std::array<float, 12>;
 
+using Vec4f = std::array<float, 4>;
+
 // A vertex and a fragment shader, compiled and linked. The setters work on the program in use; a name that the program
 // has no use for is passed over, as OpenGL does.
 class Program {
@@ -71,6 +73,7 @@ class Program {
   void set(const char* name, float value) const;
   void set(const char* name, Vec3f value) const;
   void set(const char* name, std::span<const Vec3f> values) const;
+  void set(const char* name, std::span<const Vec4f> values) const;
   void set(const char* name, const Mat3f& value) const;
   void set(const char* name, const Mat4f& value) const;
   void set(const char* name, std::span<const Mat3x4f> values) const;

@@ -4,10 +4,10 @@ precision highp sampler2D;
 
 // Evaluates the very eval_sh that pictures are drawn with, one direction a pixel.
 
-uniform sampler2D u_directions;
+uniform sampler2D u_input0;
 
 out vec4 o_value;
 
 vec3 eval_sh(vec3 n);
 
-void main() { o_value = vec4(eval_sh(texelFetch(u_directions, ivec2(gl_FragCoord.xy), 0).xyz), 1.0); }
+void main() { o_value = vec4(eval_sh(texelFetch(u_input0, ivec2(gl_FragCoord.xy), 0).xyz), 1.0); }
