@@ -23,11 +23,13 @@ enum class LobeShape {
   kLambert,     // constant: its coefficients have a closed form
   kHemisphere,  // polar angle and azimuth of s; kinks only where s is as steep as v, and at ±90° from its azimuth
   kHalfVector,  // slopes of the half vector (s+v)/|s+v| [1], by the lobe's widths
+  kGrooves,     // the same, with the kinks that Cook and Torrance's G has
 };
 
 struct BrdfLobe {
   LobeShape shape = LobeShape::kLambert;
-  // Of kHalfVector: slopes h_x/h_z and h_y/h_z at which the lobe has fallen to about half of its height or less.
+  // Of kHalfVector and kGrooves: slopes h_x/h_z and h_y/h_z at which the lobe has fallen to about half of its height or
+  // less.
   double width_x = 1, width_y = 1;
   double weight = 1;  // how often sampling takes this lobe, relative to the others
 };

@@ -13,7 +13,7 @@ namespace {
 class CookTorrance : public Brdf {
  public:
   CookTorrance(double m, Rgb f0)
-      : Brdf({BrdfSymmetry::kIsotropic, is_grey(f0), {{LobeShape::kHalfVector, m, m}}}), m_(m), f0_(f0) {}
+      : Brdf({BrdfSymmetry::kIsotropic, is_grey(f0), {{LobeShape::kGrooves, m, m}}}), m_(m), f0_(f0) {}
 
   Rgb eval_lobe(std::size_t, Vec3d s, Vec3d v) const override {
     const Vec3d h = s + v;

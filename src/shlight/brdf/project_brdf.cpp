@@ -25,6 +25,16 @@
 // to arctan r_max and is stretched there by 1 − (1−x)², which turns the square root that Ward's model has at the
 // horizon into a straight line.
 //
+// Cook and Torrance's G = min{1, 2 n·h n·v / v·h, 2 n·h n·s / v·h} has kinks where two of the three are the same. In
+// the terms above, with q = 1 + r B = v·h / (h_z cos θ) and S = a² + b², these are
+//
+//     r = 1/B                                     where the second is 1,
+//     3 q − 2 = (q + 2) S r²                      where the third is 1: one root in (0, r_max), as p(0) = 1 and
+//     p(r_max) < 0 r = B/S                                     where the second is the third, both below 1 where r² S >
+//     1,
+//
+// at which rays are cut.
+//
 // Around, with (a, b) = (w_x cos ψ, w_y sin ψ), B = C tan θ cos(ψ − ψ_0). The further the view grazes, the more
 // suddenly r_max turns from large to small where B changes its sign: within about cot θ. The four quarters between
 // there and the extremes are therefore stretched by a sinh of just that scale.
@@ -137,34 +147,74 @@ void add_hemisphere(const View& view, bool half, int nodes, Sum& sum) {
   }
 }
 
+// Where rays are cut into pieces: 0, kinks, r_max.
+struct Cuts {
+  std::array<double, 5> r{};
+  int count = 0;
+  void add(double value) { r[static_cast<std::size_t>(count++)] = value; }
+};
+
+// The root of p(r) = 3 q − 2 − (q + 2) S r² in (0, r_max), q = 1 + B r, by Newton's steps kept between two ends.
+double find_shadowing_kink(double slope, double square, double r_max) {
+  double low = 0, high = r_max, r = 0.5 * r_max;
+  for (int step = 0; step < 60; ++step) {
+    const double q = 1 + slope * r, p = 3 * q - 2 - (q + 2) * square * r * r;
+    (p > 0 ? low : high) = r;
+    const double derivative = 3 * slope - square * r * (3 * slope * r + 6);
+    double next = r - p / derivative;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - r) <= 1e-14 * r_max) break;
+    r = next;
+  }
+  return r;
+}
+
+Cuts make_cuts(LobeShape shape, double slope, double square, double r_max) {
+  Cuts cuts;
+  cuts.add(0);
+  if (shape == LobeShape::kGrooves) {
+    if (slope * r_max > 1) cuts.add(1 / slope);
+    cuts.add(find_shadowing_kink(slope, square, r_max));
+    if (slope > 0 && slope * slope > square) cuts.add(slope / square);
+    std::sort(cuts.r.begin(), cuts.r.begin() + cuts.count);
+  }
+  cuts.add(r_max);
+  return cuts;
+}
+
 // Integrates over slopes of the half vector, as derived above.
 void add_half_vector(const View& view, const BrdfLobe& lobe, bool half, int nodes, Sum& sum) {
   const UnitRule& rule = unit_rule(nodes);
   const double tangent = view.sine / view.cosine;
   const double wx = lobe.width_x, wy = lobe.width_y;
   const double psi_0 = std::atan2(wy * view.sin_phi, wx * view.cos_phi);
+  // No smaller a sine: at the pole the stretch would divide by zero, and is none.
   const double scale = view.cosine / std::max(view.sine, 1e-3), stretch = std::asinh(pi / 2 / scale);
   // Quarters on both sides of ψ_0 ± π/2, where B is zero.
   for (int quarter = 0; quarter < (half ? 2 : 4); ++quarter) {
     const double middle = psi_0 + (quarter < 2 ? pi / 2 : -pi / 2), side = quarter % 2 == 0 ? -1 : 1;
     for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
       const double psi = middle + side * scale * std::sinh(stretch * rule.nodes[j]);
-      const double psi_weight = rule.weights[j] * scale * stretch * std::cosh(stretch * rule.nodes[j]);
+      const double psi_weight = rule.weights[j] * scale * stretch * std::cosh(stretch * rule.nodes[j]) * (half ? 2 : 1);
       const double a = wx * std::cos(psi), b = wy * std::sin(psi), square = a * a + b * b;
       const double slope = tangent * (a * view.cos_phi + b * view.sin_phi);
       const double root = std::sqrt(slope * slope + square);
       const double r_max = slope > 0 ? (slope + root) / square : 1 / (root - slope);
-      const double zeta_max = std::atan(r_max);
-      for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
-        const double rest = 1 - rule.nodes[i], zeta = zeta_max * (1 - rest * rest);
-        const double r = std::tan(zeta);
-        const double tx = r * a, ty = r * b, hz = 1 / std::sqrt(1 + r * r * square);
-        const double vh = hz * view.cosine * (1 + r * slope);
-        // wx wy r dr dψ is the slopes' area, and dr = (1 + r²) dζ.
-        const double dr = (1 + r * r) * zeta_max * 2 * rest * rule.weights[i];
-        const double weight = 4 * vh * hz * hz * hz * wx * wy * r * dr * psi_weight * (half ? 2 : 1);
-        const double f = 2 * vh * hz;
-        sum.add({f * tx - view.v.x, f * ty - view.v.y, f - view.v.z}, weight);
+      const Cuts cuts = make_cuts(lobe.shape, slope, square, r_max);
+      for (int piece = 0; piece + 1 < cuts.count; ++piece) {
+        const double begin = std::atan(cuts.r[static_cast<std::size_t>(piece)]);
+        const double span = std::atan(cuts.r[static_cast<std::size_t>(piece) + 1]) - begin;
+        for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+          // 1 − (1−x)² and its derivative.
+          const double rest = 1 - rule.nodes[i], r = std::tan(begin + span * (1 - rest * rest));
+          const double tx = r * a, ty = r * b, hz = 1 / std::sqrt(1 + r * r * square);
+          const double vh = hz * view.cosine * (1 + r * slope);
+          // The slopes' area is w_x w_y r dr dψ, and dr = (1 + r²) dζ.
+          const double dr = (1 + r * r) * span * 2 * rest * rule.weights[i];
+          const double weight = 4 * vh * hz * hz * hz * wx * wy * r * dr * psi_weight;
+          const double f = 2 * vh * hz;
+          sum.add({f * tx - view.v.x, f * ty - view.v.y, f - view.v.z}, weight);
+        }
       }
     }
   }

@@ -15,16 +15,14 @@ namespace {
 
 using std::numbers::pi;
 
+// The polar angle of the last view, in place of 90°.
 constexpr double kLastPolarAngle = 89.9 * pi / 180;
 
-Vec3d view_at(double polar_angle, double azimuth) {
-  const double theta = std::min(polar_angle, kLastPolarAngle), sine = std::sin(theta);
-  return {sine * std::cos(azimuth), sine * std::sin(azimuth), std::cos(theta)};
-}
-
-// The view of a point of the square.
-Vec3d view_of_square(double a, double b) {
-  return view_at(pi / 2 * std::max(std::abs(a), std::abs(b)), a == 0 && b == 0 ? 0 : std::atan2(b, a));
+// The view at a position, in the azimuth of (x, y), which are not both zero.
+Vec3d view_at(double position, double x, double y) {
+  const double cosine = std::max(cosine_of_position(position), std::cos(kLastPolarAngle));
+  const double scale = std::sqrt((1 - cosine) * (1 + cosine)) / std::sqrt(x * x + y * y);
+  return {scale * x, scale * y, cosine};
 }
 
 float* entry_of(ReflectanceTable& table, int column, int row) {
@@ -71,6 +69,17 @@ Between between(double position, int size) {
 
 }  // namespace
 
+double view_position(double cos_theta) {
+  const double x = 1 - std::sqrt(std::max(0.0, 1 - cos_theta));
+  return 1 - 0.5 * (x + std::sqrt(std::max(0.0, x)));
+}
+
+double cosine_of_position(double position) {
+  // x + √x = 2 (1 − u), solved for √x.
+  const double root = 0.5 * (std::sqrt(9 - 8 * position) - 1), s = 1 - root * root;
+  return 1 - s * s;
+}
+
 ReflectanceTable make_reflectance_table(const Brdf& brdf, const ReflectanceTableParams& params) {
   SHLIGHT_ASSERT_GE(params.bands, 1);
   SHLIGHT_ASSERT_LE(params.bands, kMaxTableBands);
@@ -95,7 +104,7 @@ ReflectanceTable make_reflectance_table(const Brdf& brdf, const ReflectanceTable
     parallel_for(static_cast<std::size_t>((size + kEntries - 1) / kEntries), params.threads, [&](std::size_t task) {
       const int begin = static_cast<int>(task) * kEntries;
       for (int k = begin; k < std::min(begin + kEntries, size); ++k)
-        write_entry(project(view_at(pi / 2 * k / (size - 1), 0)), table, k, 0);
+        write_entry(project(view_at(static_cast<double>(k) / (size - 1), 1, 0)), table, k, 0);
     });
   } else {
     const bool mirrored = symmetry == BrdfSymmetry::kMirrored;
@@ -103,14 +112,16 @@ ReflectanceTable make_reflectance_table(const Brdf& brdf, const ReflectanceTable
     parallel_for(static_cast<std::size_t>(side), params.threads, [&](std::size_t task) {
       const int row = static_cast<int>(task), other_row = size - 1 - row;
       for (int column = 0; column < side; ++column) {
-        const RgbCoefficients here = project(view_of_square(coordinate(column), coordinate(row)));
+        const double x = coordinate(column), y = coordinate(row);
+        const double position = std::min(1.0, std::sqrt(x * x + y * y));
+        const RgbCoefficients here = project(position > 0 ? view_at(position, x, y) : Vec3d{0, 0, 1});
         write_entry(here, table, column, row);
         if (!mirrored) continue;
         const int other_column = size - 1 - column;
-        for (const auto& [x, y] : {std::array{true, false}, {false, true}, {true, true}}) {
+        for (const auto& [flip_x, flip_y] : {std::array{true, false}, {false, true}, {true, true}}) {
           RgbCoefficients there = here;
-          mirror(x, y, there);
-          write_entry(there, table, x ? other_column : column, y ? other_row : row);
+          mirror(flip_x, flip_y, there);
+          write_entry(there, table, flip_x ? other_column : column, flip_y ? other_row : row);
         }
       }
     });
@@ -119,7 +130,7 @@ ReflectanceTable make_reflectance_table(const Brdf& brdf, const ReflectanceTable
 }
 
 RgbCoefficients eval_reflectance_table(const ReflectanceTable& table, Vec3d v) {
-  const double sine = std::sqrt(v.x * v.x + v.y * v.y), radius = 2 / pi * std::atan2(sine, v.z);
+  const double sine = std::sqrt(v.x * v.x + v.y * v.y), position = view_position(v.z);
   const double cos_phi = sine > 0 ? v.x / sine : 1, sin_phi = sine > 0 ? v.y / sine : 0;
   RgbCoefficients result(table.bands);
   const auto add = [&](int column, int row, double share) {
@@ -130,15 +141,14 @@ RgbCoefficients eval_reflectance_table(const ReflectanceTable& table, Vec3d v) {
         result.at(l, m) += share * read_value(table, at);
   };
   if (table.isotropic()) {
-    const auto [low, share] = between(radius * (table.width - 1), table.width);
+    const auto [low, share] = between(position * (table.width - 1), table.width);
     add(low, 0, 1 - share);
     add(low + 1, 0, share);
     turn_about_normal(cos_phi, sin_phi, result);
     return result;
   }
-  const double scale = radius / std::max(std::abs(cos_phi), std::abs(sin_phi));
-  const auto [column, x] = between(0.5 * (1 + scale * cos_phi) * (table.width - 1), table.width);
-  const auto [row, y] = between(0.5 * (1 + scale * sin_phi) * (table.height - 1), table.height);
+  const auto [column, x] = between(0.5 * (1 + position * cos_phi) * (table.width - 1), table.width);
+  const auto [row, y] = between(0.5 * (1 + position * sin_phi) * (table.height - 1), table.height);
   add(column, row, (1 - x) * (1 - y));
   add(column + 1, row, x * (1 - y));
   add(column, row + 1, (1 - x) * y);

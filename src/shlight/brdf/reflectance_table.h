@@ -13,24 +13,33 @@
 //
 //     values[((row · width + column) · coefficients + i) · channels + channel]
 //
-// Isotropic models: one row. Column k is the view at the polar angle θ_k = π/2 · k/(width−1) and azimuth 0, in the half
-// plane +x of the frame; there the coefficients of m < 0 are zero and are left out. The bands(bands+1)/2 others stand
-// at i = l(l+1)/2 + m. Seen from azimuth φ,
+// The polar angle θ of the view stands in the table as its position u from the normal, 0, to the horizon, 1:
+//
+//     u = 1 − (x + √x)/2,   x = 1 − √(1 − cos θ)        (view_position; cosine_of_position is the inverse)
+//
+// nearly proportional to θ at the normal, and denser toward the horizon, where models change most.
+//
+// Isotropic models: one row. Column k is the view at u = k/(width−1) and azimuth 0, in the half plane +x of the frame;
+// there the coefficients of m < 0 are zero and are left out. The bands(bands+1)/2 others stand at i = l(l+1)/2 + m.
+// Seen from azimuth φ,
 //
 //     F*_{l,m} = cos(mφ) entry_{l,m},   F*_{l,−m} = sin(mφ) entry_{l,m}.
 //
 // (A shader that has no tangent needs none: it may take the frame with the view at azimuth 0.)
 //
-// Anisotropic models: width = height. Column j and row k are the view with
+// Anisotropic models: a disc in a square, width = height. Column j and row k are the view of position u and azimuth φ
+// with
 //
-//     a = 2j/(width−1) − 1,  b = 2k/(width−1) − 1:  polar angle π/2 · max(|a|, |b|), azimuth atan2(b, a),
+//     u cos φ = 2j/(width−1) − 1,   u sin φ = 2k/(height−1) − 1;
 //
-// squares about the normal with the horizon as their border. All bands² coefficients stand in the library's sequence,
-// i = l(l+1) + m.
+// outside of the disc stands the view of the same azimuth at the horizon. All bands² coefficients stand in the
+// library's sequence, i = l(l+1) + m.
 //
-// Between entries, interpolate linearly: two of them, or bilinearly four. With the default sizes, tables of the models
-// here differ from F* between entries by at most the share of their largest coefficient that docs/brdf.md lists. The
-// last entry, θ = 90°, is made at 89.9°, since nothing is seen from the horizon itself.
+// Between entries, interpolate linearly: two of them, or bilinearly four. With 5 bands and the default sizes, that is
+// off by at most 2e-4 of the largest |coefficient| of the same view in isotropic tables, 3e-3 in anisotropic ones; by
+// 2e-3 and 7e-3 beyond 80° with the forms kWard and kDuer of ward.h, which have no bound there.
+//
+// Horizon means 89.9° here, since nothing is seen from the horizon itself.
 //
 // [1] Kautz, Sloan & Snyder 2002, Fast, Arbitrary BRDF Shading for Low-Frequency Lighting Using Spherical Harmonics.
 
@@ -40,7 +49,7 @@ struct ReflectanceTableParams {
   int bands = 5;            // 1 to kMaxTableBands
   int polar_size = 256;     // entries of an isotropic table, >= 2
   int square_size = 128;    // entries of a side of an anisotropic one, >= 2
-  double tolerance = 2e-5;  // of entries, relative to their largest coefficient
+  double tolerance = 4e-5;  // of entries, relative to their largest coefficient
   int threads = 0;          // 0: all; the same bits for any number
 };
 inline constexpr int kMaxTableBands = 10;
@@ -54,6 +63,10 @@ struct ReflectanceTable {
   bool isotropic() const { return height == 1; }
   int coefficients() const { return isotropic() ? bands * (bands + 1) / 2 : bands * bands; }
 };
+
+// Where a view stands between normal and horizon, [0, 1], and back.
+double view_position(double cos_theta);
+double cosine_of_position(double position);
 
 // Cost: projections of all entries, with as few nodes as the tolerance takes; a model that is not isotropic but
 // mirrored needs a quarter of them. Throws what a model of one's own throws.
