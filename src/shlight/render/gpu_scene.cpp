@@ -5,16 +5,18 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "shlight/core/assert.h"
 #include "shlight/core/error.h"
 #include "shlight/render/matrices.h"
+#include "shlight/scene/tangents.h"
 
 namespace shlight {
 namespace {
 
 // The locations that mesh.vert gives its attributes.
-enum Attribute { kPosition = 0, kNormal = 1, kTexcoord = 2, kColor = 3 };
+enum Attribute { kPosition = 0, kNormal = 1, kTexcoord = 2, kColor = 3, kTangent = 4 };
 
 // More costs time and is hardly seen.
 constexpr float kMaxAnisotropy = 8;
@@ -75,7 +77,7 @@ glm::dmat3 normal_matrix(const glm::dmat3& m) {
 
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene)
+GpuScene::GpuScene(const Scene& scene, bool tangents)
     : instances_(scene.instances),
       materials_(scene.materials),
       white_(make_white_texture()),
@@ -89,14 +91,17 @@ GpuScene::GpuScene(const Scene& scene)
                         mesh.positions.size(),   mesh.material};
     glBindVertexArray(gpu_mesh.vertex_array.id());
     glBindBuffer(GL_ARRAY_BUFFER, gpu_mesh.vertices.id());
-    const std::size_t bytes = (mesh.positions.size() + mesh.normals.size() + mesh.colors.size()) * sizeof(Vec3f) +
-                              mesh.texcoords.size() * sizeof(Vec2f);
+    const std::vector<Vec3f> mesh_tangents = tangents ? make_tangents(mesh) : std::vector<Vec3f>();
+    const std::size_t bytes =
+        (mesh.positions.size() + mesh.normals.size() + mesh.colors.size() + mesh_tangents.size()) * sizeof(Vec3f) +
+        mesh.texcoords.size() * sizeof(Vec2f);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_STATIC_DRAW);
     std::size_t offset = 0;
     add_attribute(kPosition, mesh.positions, offset);
     add_attribute(kNormal, mesh.normals, offset);
     add_attribute(kTexcoord, mesh.texcoords, offset);
     add_attribute(kColor, mesh.colors, offset);
+    add_attribute(kTangent, mesh_tangents, offset);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gpu_mesh.indices.id());
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
                  mesh.indices.data(), GL_STATIC_DRAW);
@@ -107,11 +112,15 @@ GpuScene::GpuScene(const Scene& scene)
 }
 
 void GpuScene::draw(const gl::Program& program, const View& view, const Rotation& light_to_world) const {
-  const glm::dmat4 world_to_clip = to_glm(view.view_to_clip) * to_glm(view.world_to_view);
+  draw([&](std::uint32_t) -> const gl::Program& { return program; }, view, light_to_world);
+}
+
+void GpuScene::draw(const ProgramOfMaterial& program_of, const View& view, const Rotation& light_to_world) const {
+  const glm::dmat4 world_to_view = to_glm(view.world_to_view);
+  const glm::dmat4 world_to_clip = to_glm(view.view_to_clip) * world_to_view;
   const glm::dmat3 world_to_light = inverse_to_glm(light_to_world);
-  program.use();
-  program.set("u_texture", 0);
-  glActiveTexture(GL_TEXTURE0);
+  const glm::dvec3 eye(glm::inverse(world_to_view)[3]);
+  const glm::dmat4 world_to_eye = glm::dmat4(world_to_light) * glm::translate(glm::dmat4(1), -eye);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glDepthMask(GL_TRUE);
@@ -125,11 +134,16 @@ void GpuScene::draw(const gl::Program& program, const View& view, const Rotation
     const GpuMesh& mesh = meshes_[instance.mesh];
     const Material& material = materials_[mesh.material];
     const glm::dmat4 to_world = to_glm(instance.to_world);
+    const gl::Program& program = program_of(mesh.material);
+    program.use();
+    program.set("u_texture", 0);
+    program.set("u_object_to_eye", to_mat4f(world_to_eye * to_world));
     program.set("u_object_to_clip", to_mat4f(world_to_clip * to_world));
     program.set("u_normal_to_light", to_mat3f(world_to_light * normal_matrix(glm::dmat3(to_world))));
     program.set("u_first_vertex", static_cast<int>(first_vertex));
     first_vertex += mesh.num_vertices;
     program.set("u_base_color", material.base_color);
+    glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, material.texture ? textures_[*material.texture].id() : white_.id());
     // A mirroring instance turns the winding around.
     glFrontFace(glm::determinant(glm::dmat3(to_world)) < 0 ? GL_CW : GL_CCW);

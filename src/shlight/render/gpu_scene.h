@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "shlight/render/camera.h"
@@ -15,13 +16,18 @@ namespace shlight {
 // shader mesh.vert or transfer.vert. Needs the context in which it was made.
 class GpuScene {
  public:
-  // Throws Error where a texture is bigger than the card takes, or where memory runs out.
-  explicit GpuScene(const Scene& scene);
+  // With tangents (scene/tangents.h) only where asked for. Throws Error where a texture is bigger than the card takes,
+  // or where memory runs out.
+  explicit GpuScene(const Scene& scene, bool tangents = false);
 
-  // Draws all instances with `program`, into the framebuffer and viewport now bound, with a depth test and both sides
-  // of every triangle. Sets u_object_to_clip, u_normal_to_light and u_first_vertex of the vertex shaders, and
-  // u_base_color and u_texture of surface.frag; the rest is the caller's. `light_to_world` turns the light's frame into
-  // the world.
+  // Draws all instances, each with the program that `program_of` its material returns, into the framebuffer and
+  // viewport now bound, with a depth test and both sides of every triangle. Sets u_object_to_clip, u_object_to_eye,
+  // u_normal_to_light and u_first_vertex of the vertex shaders, and u_base_color and u_texture of surface.frag; the
+  // rest is the caller's, and may be set in `program_of`: textures from unit 1 on. `light_to_world` turns the light's
+  // frame into the world.
+  using ProgramOfMaterial = std::function<const gl::Program&(std::uint32_t material)>;
+  void draw(const ProgramOfMaterial& program_of, const View& view, const Rotation& light_to_world) const;
+  // The same with one program for all.
   void draw(const gl::Program& program, const View& view, const Rotation& light_to_world) const;
 
   // Of all instances. A mesh's vertices keep their sequence, and instances theirs: vertex v of an instance is the

@@ -66,18 +66,36 @@ std::string turn_quarter(const RotationMatrix& q, bool transposed, const std::st
   return code;
 }
 
+// Σ_m L_lm times stage `from`, added to the result.
+std::string add_light(int channels, int l, char from) {
+  const auto sum = [&](const char* member) {
+    std::string terms;
+    for (int m = -l; m <= l; ++m)
+      terms +=
+          fmt::format("{}{}{} * u_sh[{}]", m == -l ? "" : " + ", name(from, l, m), member, coefficient_index(l, m));
+    return terms;
+  };
+  if (channels == 2) return fmt::format("    tinted += {};\n    plain += {};\n", sum(".x"), sum(".y"));
+  return fmt::format("    plain += {};\n", sum(""));
+}
+
 }  // namespace
 
 std::string make_reflectance_glsl(const ReflectanceGlslParams& params) {
   const int bands = params.bands;
   SHLIGHT_ASSERT_LE(1, bands);
   SHLIGHT_ASSERT_LE(bands, kMaxGlslBands);
-  SHLIGHT_ASSERT_EQ(params.channels == 1 || params.channels == 3, true);
+  SHLIGHT_ASSERT_LE(1, params.channels);
+  SHLIGHT_ASSERT_LE(params.channels, 3);
   const RotationMatrix q(bands, kFromYToZ);
-  const std::string type = params.channels == 1 ? "float" : "vec3";
+  const char* const kTypes[] = {"float", "vec2", "vec3"};
+  const std::string type = kTypes[params.channels - 1];
+  // Four numbers a texel, but of three channels three.
+  const int per_texel = params.channels == 3 ? 3 : 4;
 
   std::string code = fmt::format("uniform vec3 u_sh[{}];\nuniform int u_once;\n\n", num_coefficients(bands));
-  code += "vec4 reflectance_texel(int k);\n\nvec3 eval_reflectance(vec3 n, vec3 t) {\n";
+  code +=
+      "vec4 reflectance_texel(int k);\n\nvoid eval_reflectance(vec3 n, vec3 t, out vec3 plain, out vec3 tinted) {\n";
   if (bands > 1) {
     // Over the poles every azimuth is right.
     code +=
@@ -86,7 +104,7 @@ std::string make_reflectance_glsl(const ReflectanceGlslParams& params) {
         "  float gc1 = bc1 * (ac1 * t.x + as1 * t.y) - bs1 * t.z, gs1 = ac1 * t.y - as1 * t.x;\n";
     for (const char angle : {'a', 'b', 'g'}) code += multiples(angle, bands);
   }
-  code += "  vec3 sum = vec3(0.0);\n  vec4 texel;\n";
+  code += "  plain = tinted = vec3(0.0);\n  vec4 texel;\n";
 
   // Degree after degree, each a loop that runs once, for the reason told in sh_glsl.cpp.
   int loaded = -1;
@@ -95,14 +113,14 @@ std::string make_reflectance_glsl(const ReflectanceGlslParams& params) {
     // Stage f: the table's coefficients; those of negative m are zero where reflectance is isotropic.
     for (int m = params.isotropic ? 0 : -l; m <= l; ++m) {
       const int index = params.isotropic ? l * (l + 1) / 2 + m : coefficient_index(l, m);
-      const int texel = params.channels == 1 ? index / 4 : index;
+      const int first = index * params.channels, texel = first / per_texel;
       if (texel != loaded) code += fmt::format("    texel = reflectance_texel({});\n", texel);
       loaded = texel;
       code += fmt::format("    {} {} = texel.{};\n", type, name('f', l, m),
-                          params.channels == 1 ? std::string(1, "xyzw"[index % 4]) : "xyz");
+                          std::string("xyzw").substr(first % per_texel, params.channels));
     }
     if (l == 0) {
-      code += "    sum += f0 * u_sh[0];\n  }\n";
+      code += add_light(params.channels, l, 'f') + "  }\n";
       continue;
     }
     if (params.isotropic) {
@@ -117,12 +135,9 @@ std::string make_reflectance_glsl(const ReflectanceGlslParams& params) {
     code += turn_about_z(type, l, 'h', 'i', 'b');
     code += turn_quarter(q, true, type, l, 'i', 'j');
     code += turn_about_z(type, l, 'j', 'w', 'a');
-    code += "    sum +=";
-    for (int m = -l; m <= l; ++m)
-      code += fmt::format("{} {} * u_sh[{}]", m == -l ? "" : " +", name('w', l, m), coefficient_index(l, m));
-    code += ";\n  }\n";
+    code += add_light(params.channels, l, 'w') + "  }\n";
   }
-  return code + "  return sum;\n}\n";
+  return code + "}\n";
 }
 
 }  // namespace shlight

@@ -31,6 +31,14 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+template <class Renderer>
+bool needs_tangents(const Renderer&) {
+  return false;
+}
+bool needs_tangents(const ReflectanceRenderer& renderer) {
+  return renderer.needs_tangents();
+}
+
 // Draws with the renderer that make_renderer makes in the context from the light's coefficients.
 template <class MakeRenderer>
 RenderResult render(const Scene& scene, const RenderLight& light, const RenderParams& params, const Progress& progress,
@@ -53,7 +61,7 @@ RenderResult render(const Scene& scene, const RenderLight& light, const RenderPa
     const float bright = static_cast<float>(1 / exposed);
     renderer.mark_negative({bright, 0, bright});
   }
-  const GpuScene gpu_scene(scene);
+  const GpuScene gpu_scene(scene, needs_tangents(renderer));
   const ToneMapper tone_mapper;
 
   const Extent extent = scene_extent(scene);
@@ -101,6 +109,13 @@ RenderResult render_irradiance(const Scene& scene, const RenderLight& light, con
                                const Progress& progress) {
   return render(scene, light, params, progress,
                 [](const RgbCoefficients& radiance) { return IrradianceRenderer(radiance); });
+}
+
+RenderResult render_reflectance(const Scene& scene, std::span<const SurfaceReflectance> surfaces,
+                                const RenderLight& light, const RenderParams& params, const Progress& progress) {
+  SHLIGHT_ASSERT_EQ(surfaces.size(), scene.materials.size());
+  return render(scene, light, params, progress,
+                [&](const RgbCoefficients& radiance) { return ReflectanceRenderer(surfaces, radiance, params.shade); });
 }
 
 RenderResult render_transfer(const Scene& scene, const Transfer& transfer, const RenderLight& light,

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "shlight/core/progress.h"
 #include "shlight/image/image.h"
 #include "shlight/light/light.h"
 #include "shlight/render/camera.h"
+#include "shlight/render/reflectance_renderer.h"
+#include "shlight/render/surface_reflectance.h"
 #include "shlight/scene/scene.h"
 #include "shlight/sh/coefficients.h"
 #include "shlight/sh/rotation.h"
@@ -22,7 +25,8 @@ struct RenderParams {
   double exposure = 0;    // stops, on top of auto_exposure() of the light
   int frames = 1;         // at least 1: how many are timed; the view turns once around in them
   bool show_background = true;
-  bool mark_negative = false;  // magenta stripes where a channel of what lights a surface is below zero
+  bool mark_negative = false;   // magenta stripes where a channel of what a surface leaves is below zero
+  Shade shade = Shade::kPixel;  // by the reflectance method
 };
 
 // A distant light as the renderer needs it.
@@ -46,6 +50,11 @@ struct RenderResult {
 // too small for the picture; Cancelled.
 RenderResult render_irradiance(const Scene& scene, const RenderLight& light, const RenderParams& params,
                                const Progress& progress = {});
+
+// The same by the reflectance method: `surfaces` are those of the scene's materials, with tables of as many bands as
+// are used of the light.
+RenderResult render_reflectance(const Scene& scene, std::span<const SurfaceReflectance> surfaces,
+                                const RenderLight& light, const RenderParams& params, const Progress& progress = {});
 
 // The same by the transfer method: `transfer` is the scene's, as bake_transfer makes it.
 RenderResult render_transfer(const Scene& scene, const Transfer& transfer, const RenderLight& light,

@@ -86,10 +86,10 @@ std::vector<Rgb> draw_radiance_at(std::span<const Vec3d> directions, const RgbCo
 
 std::vector<Rgb> draw_reflectance_at(std::span<const Vec3d> normals, std::span<const Vec3d> tangents,
                                      const ReflectanceGlslParams& params, std::span<const float> coefficients,
-                                     const RgbCoefficients& radiance) {
+                                     Vec3f base_color, const RgbCoefficients& radiance) {
   SHLIGHT_ASSERT_EQ(radiance.bands(), params.bands);
   // As reflectance_texel returns them.
-  const std::size_t per_texel = params.channels == 1 ? 4 : 3;
+  const std::size_t per_texel = params.channels == 3 ? 3 : 4;
   std::vector<gl::Vec4f> texels((coefficients.size() + per_texel - 1) / per_texel);
   for (std::size_t i = 0; i < coefficients.size(); ++i) texels[i / per_texel][i % per_texel] = coefficients[i];
   const std::string texel = fmt::format(
@@ -98,6 +98,7 @@ std::vector<Rgb> draw_reflectance_at(std::span<const Vec3d> normals, std::span<c
                  [&](const gl::Program& program) {
                    set_radiance_uniforms(program, radiance);
                    program.set("u_texels", texels);
+                   program.set("u_base_color", base_color);
                  });
 }
 

@@ -19,10 +19,10 @@ std::vector<Rgb> draw_irradiance_at(std::span<const Vec3d> normals, const RgbCoe
 // Radiance from each direction.
 std::vector<Rgb> draw_radiance_at(std::span<const Vec3d> directions, const RgbCoefficients& radiance);
 
-// Radiance reflected at each normal and tangent, whose reflectance coefficients are all `coefficients`: in the sequence
-// of ReflectanceGlslParams, the channels of one side by side.
+// Radiance reflected at each normal and tangent by surfaces of this base colour, whose reflectance coefficients are all
+// `coefficients`: in the sequence of ReflectanceGlslParams, the channels of one side by side.
 std::vector<Rgb> draw_reflectance_at(std::span<const Vec3d> normals, std::span<const Vec3d> tangents,
                                      const ReflectanceGlslParams& params, std::span<const float> coefficients,
-                                     const RgbCoefficients& radiance);
+                                     Vec3f base_color, const RgbCoefficients& radiance);
 
 }  // namespace shlight

@@ -33,7 +33,7 @@ void scale_mesh(Mesh& mesh, float factor) {
 void add_mesh(Scene& scene, Mesh mesh, std::string name, Vec3f base_color, const Mat4f& to_world) {
   mesh.name = name;
   mesh.material = static_cast<std::uint32_t>(scene.materials.size());
-  scene.materials.push_back({std::move(name), base_color, {}});
+  scene.materials.push_back({std::move(name), base_color, {}, {}});
   scene.instances.push_back({static_cast<std::uint32_t>(scene.meshes.size()), to_world});
   scene.meshes.push_back(std::move(mesh));
 }

@@ -155,6 +155,7 @@ TEST_F(LoadSceneTest, TextXFile) {
   EXPECT_NEAR(bounds.min.x, 10, kNearlyEqual);
   EXPECT_NEAR(bounds.min.z, -2, kNearlyEqual);
   EXPECT_NEAR(bounds.max.z, 0, kNearlyEqual);
+  EXPECT_FALSE(scene.materials[0].gloss);
   // The file's colours are encoded.
   EXPECT_NEAR(scene.materials[0].base_color.x, 0.5, 1e-4);
   EXPECT_EQ(scene.materials[0].base_color.z, 1);
@@ -171,7 +172,7 @@ std::string gltf_triangle(const std::string& node, std::vector<float> positions 
   return fmt::format(
       R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0{}}}],)"
       R"("meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}},"indices":2,"material":0}}]}}],)"
-      R"("materials":[{{"pbrMetallicRoughness":{{"baseColorFactor":[0.5,0.25,1,1],"baseColorTexture":{{"index":0}}}}}}],)"
+      R"("materials":[{{"pbrMetallicRoughness":{{"baseColorFactor":[0.5,0.25,1,1],"metallicFactor":0.25,"baseColorTexture":{{"index":0}}}}}}],)"
       R"("textures":[{{"source":0}}],"images":[{{"uri":"{}"}}],"buffers":[{{"byteLength":66,"uri":)"
       R"("data:application/octet-stream;base64,{}"}}],"bufferViews":[{{"buffer":0,"byteLength":36}},)"
       R"({{"buffer":0,"byteOffset":36,"byteLength":24}},{{"buffer":0,"byteOffset":60,"byteLength":6}}],"accessors":[)"
@@ -184,6 +185,7 @@ std::string gltf_triangle(const std::string& node, std::vector<float> positions 
 TEST_F(LoadSceneTest, GltfColorsAreLinearAndTexcoordsStartAtTheTop) {
   const Scene scene = load("a.gltf", gltf_triangle(""));
   EXPECT_EQ(scene.materials[0].base_color, (Vec3f{0.5f, 0.25f, 1}));
+  EXPECT_EQ(scene.materials[0].gloss, (MetallicRoughness{0.25f, 1}));
   ASSERT_EQ(scene.meshes[0].texcoords.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3f p = scene.meshes[0].positions[i];

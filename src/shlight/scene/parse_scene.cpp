@@ -140,6 +140,14 @@ ParsedMaterial parse_material(const aiMaterial& source, const FormatTraits& trai
     parsed.material.base_color = linear_color(color, traits);
   else if (parsed.material.texture || has_vertex_colors)
     parsed.material.base_color = {1, 1, 1};
+  if (traits.is_gltf && !is_made_up) {
+    // Textures of metallic and roughness are not read: their factors stand for them.
+    MetallicRoughness gloss = {1, 1};
+    source.Get(AI_MATKEY_METALLIC_FACTOR, gloss.metallic);
+    source.Get(AI_MATKEY_ROUGHNESS_FACTOR, gloss.roughness);
+    const auto share = [](float value) { return value >= 0 ? std::min(value, 1.0f) : 0.0f; };
+    parsed.material.gloss = {share(gloss.metallic), share(gloss.roughness)};
+  }
   return parsed;
 }
 

@@ -109,8 +109,15 @@ void pass_scene(Io& io, SceneType& scene) {
     std::uint32_t texture = material.texture.value_or(0);
     io.field(textured);
     io.field(texture);
-    if constexpr (std::same_as<Io, Reader>)
+    std::uint8_t glossy = material.gloss.has_value();
+    MetallicRoughness gloss = material.gloss.value_or(MetallicRoughness{});
+    io.field(glossy);
+    io.field(gloss.metallic);
+    io.field(gloss.roughness);
+    if constexpr (std::same_as<Io, Reader>) {
       if (textured) material.texture = texture;
+      if (glossy) material.gloss = gloss;
+    }
   });
   io.list(scene.textures, [&](auto& texture) {
     io.text(texture.name);

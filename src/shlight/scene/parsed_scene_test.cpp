@@ -18,7 +18,7 @@ ParsedScene make_example() {
   scene.meshes[0].colors.assign(scene.meshes[0].positions.size(), {0.5f, 0.25f, 1});
   scene.meshes[0].texcoords.assign(scene.meshes[0].positions.size(), {0.1f, 0.2f});
   scene.instances = {{1, kIdentity}, {0, {2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1}}};
-  scene.materials = {{"red", {1, 0, 0}, {}}, {"mapped", {1, 1, 1}, 1}};
+  scene.materials = {{"red", {1, 0, 0}, {}, {}}, {"mapped", {1, 1, 1}, 1, MetallicRoughness{0.75f, 0.5f}}};
   scene.textures = {{"file.png", {}, {}}, {"*0", {2, 1, {1, 2, 3, 4, 5, 6, 7, 8}}, {std::byte{9}}}};
   scene.warnings = {"something", ""};
   return scene;
@@ -49,6 +49,8 @@ TEST(ParsedScene, RoundTrip) {
   EXPECT_EQ(back.materials[0].base_color, scene.materials[0].base_color);
   EXPECT_FALSE(back.materials[0].texture);
   EXPECT_EQ(back.materials[1].texture, 1u);
+  EXPECT_FALSE(back.materials[0].gloss);
+  EXPECT_EQ(back.materials[1].gloss, (MetallicRoughness{0.75f, 0.5f}));
   EXPECT_EQ(back.textures[1].texels.values, scene.textures[1].texels.values);
   EXPECT_EQ(back.textures[1].file_bytes, scene.textures[1].file_bytes);
   EXPECT_EQ(back.warnings, scene.warnings);

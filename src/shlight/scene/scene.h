@@ -21,11 +21,20 @@ struct Vec2f {
 using Mat4f = std::array<float, 16>;
 inline constexpr Mat4f kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-// How a surface reflects, as far as every method needs it: diffuse reflectance, linear Rec. 709 in [0, 1].
+// glTF's two numbers of a surface's gloss, both in [0, 1] (brdf/metallic_roughness.h).
+struct MetallicRoughness {
+  float metallic = 0;
+  float roughness = 1;
+  bool operator==(const MetallicRoughness&) const = default;
+};
+
+// How a surface reflects. Every method uses the base colour, as diffuse reflectance; those that can show gloss, the
+// rest.
 struct Material {
   std::string name;
-  Vec3f base_color = {0.8f, 0.8f, 0.8f};
-  std::optional<std::uint32_t> texture;  // into Scene::textures; multiplies base_color where texcoords are
+  Vec3f base_color = {0.8f, 0.8f, 0.8f};   // linear Rec. 709 in [0, 1]
+  std::optional<std::uint32_t> texture;    // into Scene::textures; multiplies base_color where texcoords are
+  std::optional<MetallicRoughness> gloss;  // none: a Lambertian surface
 };
 
 // Triangles of one material. All of a loaded mesh's values are finite and every index is below positions.size();

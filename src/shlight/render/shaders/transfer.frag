@@ -3,4 +3,4 @@
 
 in vec3 v_radiance;
 
-vec3 white_radiance() { return v_radiance; }
+vec3 radiance_of(vec3 base_color) { return base_color * v_radiance; }
