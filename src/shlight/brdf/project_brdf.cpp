@@ -267,6 +267,7 @@ double largest_difference(const RgbCoefficients& a, const RgbCoefficients& b) {
 
 BrdfProjection project_brdf(const Brdf& brdf, Vec3d v, int bands, const ProjectBrdfParams& params) {
   SHLIGHT_ASSERT_GE(bands, 1);
+  SHLIGHT_ASSERT_LT(0.0, v.z);
   BrdfProjection result{RgbCoefficients(bands)};
   for (std::size_t lobe = 0; lobe < brdf.lobes().size(); ++lobe) {
     RgbCoefficients before = project_lobe(brdf, lobe, v, bands, kLevels[0]);
