@@ -12,7 +12,7 @@ class ToolHelp : public ToolTest {};
 TEST_F(ToolHelp, EveryCommandHasAnExample) {
   const ToolRun program = run({"--help"});
   EXPECT_EQ(program.err, "");
-  for (const std::string command : {"project", "render", "bake", "info", "demo", "convert-map"}) {
+  for (const std::string command : {"project", "project-brdf", "render", "bake", "info", "demo", "convert-map"}) {
     EXPECT_NE(program.out.find("\n  " + command + " "), std::string::npos) << program;
     const ToolRun help = run({command, "--help"});
     EXPECT_EQ(help.err, "");
@@ -45,6 +45,12 @@ TEST_F(ToolHelp, WrongUsageIsExplained) {
         {{"project", "builtin:sky", "--layout", "spherical"}, "spherical"},
         {{"project", "builtin:sky", "--samples", "1"}, "--samples: Value 1 not in range 9 to"},
         {{"project", "builtin:axes", "-o", ""}, "--output: the file's name is empty"},
+        {{"project-brdf"}, "MATERIAL is required"},
+        {{"project-brdf", "lambert"}, "--view is required"},
+        {{"project-brdf", "lambert", "--view", "90,0"}, "'90,0' is no view"},
+        {{"project-brdf", "lambert", "--view", "45"}, "'45' is no view"},
+        {{"project-brdf", "lambert", "--view", "nan,0"}, "'nan,0' is no view"},
+        {{"project-brdf", "lambert", "--view", "45,0,0"}, "'45,0,0' is no view"},
         {{"info"}, "FILE is required"},
         {{"info", "builtin:sky", "--max-pixels", "0"}, "--max-pixels"},
         {{"info", "builtin:sky", "--clamp", "0"}, "--clamp: '0' is no number from"},

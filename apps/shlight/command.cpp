@@ -66,6 +66,16 @@ LoadedLight load_light_aloud(const std::string& light, const LoadLightParams& pa
   return loaded;
 }
 
+std::string table_of(const RgbCoefficients& coefficients) {
+  std::string text = "  l   m           red         green          blue\n";
+  for (int l = 0; l < coefficients.bands(); ++l)
+    for (int m = -l; m <= l; ++m) {
+      const Rgb c = coefficients.at(l, m);
+      text += fmt::format("{:3} {:3}  {:12.6g}  {:12.6g}  {:12.6g}\n", l, m, c.r, c.g, c.b);
+    }
+  return text;
+}
+
 void print_result(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
     throw Error("stdout", fmt::format("cannot be written ({})", std::strerror(errno)),

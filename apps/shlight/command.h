@@ -19,6 +19,7 @@ using Run = std::function<void()>;
 
 // One function a command: adds it to the program.
 void add_project(CLI::App& program, Run& run);
+void add_project_brdf(CLI::App& program, Run& run);
 void add_render(CLI::App& program, Run& run);
 void add_bake(CLI::App& program, Run& run);
 void add_info(CLI::App& program, Run& run);
@@ -72,6 +73,9 @@ CLI::Validator number_from(double low, double high);
 
 // Loads a light and says on stderr what is worth knowing about it.
 LoadedLight load_light_aloud(const std::string& light, const LoadLightParams& params);
+
+// A table of coefficients, a line each: l, m, red, green, blue to six digits.
+std::string table_of(const RgbCoefficients& coefficients);
 
 // Writes to stdout; throws Error where that is closed or full.
 void print_result(const std::string& text);

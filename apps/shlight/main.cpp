@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
 
   shlight::app::Run run;
   shlight::app::add_project(program, run);
+  shlight::app::add_project_brdf(program, run);
   shlight::app::add_render(program, run);
   shlight::app::add_bake(program, run);
   shlight::app::add_info(program, run);

@@ -46,16 +46,6 @@ RgbCoefficients project(const Light& light, const ProjectArguments& arguments) {
   return projection.coefficients;
 }
 
-std::string table_of(const RgbCoefficients& coefficients) {
-  std::string text = "  l   m           red         green          blue\n";
-  for (int l = 0; l < coefficients.bands(); ++l)
-    for (int m = -l; m <= l; ++m) {
-      const Rgb c = coefficients.at(l, m);
-      text += fmt::format("{:3} {:3}  {:12.6g}  {:12.6g}  {:12.6g}\n", l, m, c.r, c.g, c.b);
-    }
-  return text;
-}
-
 void run_project(const ProjectArguments& arguments) {
   const LoadedLight loaded = load_light_aloud(arguments.light, arguments.load);
   std::optional<SunSplit> split;

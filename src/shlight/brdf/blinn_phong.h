@@ -11,7 +11,7 @@ namespace shlight {
 //
 //     f_r = ρ_d/π + ρ_s (n+2)(n+4) / (8π (2^{−n/2} + n)) (n·h)^n.
 //
-// ρ_d, ρ_s in [0, 1], n >= 0. In circulation is (n+8)/8π, which is the same for large n and 10 % too little at n = 1.
+// ρ_d, ρ_s in [0, 1], n >= 0. In circulation is (n+8)/8π, which is the same for large n and up to 7.5 % more, at n = 9.
 // The factor is 1/∫ (n·h)^n n·s ds with v at the normal, where n·h = cos(θ/2).
 //
 // [1] Blinn 1977, Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH.

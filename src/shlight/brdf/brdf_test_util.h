@@ -31,22 +31,24 @@ inline double largest_error(const RgbCoefficients& a, const RgbCoefficients& b) 
   return largest_value(difference);
 }
 
-// F*(v) by brute force: rows x 2 rows nodes over polar angle and azimuth of the light, knowing nothing of lobes.
-// Gauss's rule along the polar angle, cut at the view's, the trapezoid rule around.
-inline RgbCoefficients project_by_brute_force(const Brdf& brdf, Vec3d v, int bands, int rows) {
-  const GaussLegendre rule = make_gauss_legendre(rows / 2);
-  const double theta_v = std::acos(v.z), cuts[] = {0, theta_v, std::numbers::pi / 2};
+// F*(v) by brute force over polar angle and azimuth of the light, knowing nothing of lobes: Gauss's rule with `nodes`
+// nodes on both sides of the view's polar angle, and on both sides of its mirrored azimuth π + φ_v, from there as the
+// cube, for highlights at grazing angles are slimmer than a thousandth there.
+inline RgbCoefficients project_by_brute_force(const Brdf& brdf, Vec3d v, int bands, int nodes) {
+  using std::numbers::pi;
+  const GaussLegendre rule = make_gauss_legendre(nodes);
+  const double theta_v = std::acos(v.z), phi_v = std::atan2(v.y, v.x), cuts[] = {0, theta_v, pi / 2};
   RgbCoefficients sum(bands);
   std::vector<double> basis(sum.size());
   for (int part = 0; part < 2; ++part) {
     const double span = 0.5 * (cuts[part + 1] - cuts[part]);
     for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
       const double theta = cuts[part] + span * (1 + rule.nodes[i]);
-      for (int j = 0; j < 2 * rows; ++j) {
-        const double phi = (j + 0.5) * std::numbers::pi / rows;
+      for (std::size_t j = 0; j < 2 * rule.nodes.size(); ++j) {
+        const double side = j % 2 == 0 ? 1 : -1, t = 0.5 * (1 + rule.nodes[j / 2]);
+        const double phi = phi_v + pi + side * pi * t * t * t, phi_weight = 0.5 * rule.weights[j / 2] * 3 * pi * t * t;
         const Vec3d s = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
-        const double weight = span * rule.weights[i] * std::sin(theta) * std::numbers::pi / rows;
-        const Rgb value = weight * s.z * brdf.eval(s, v);
+        const Rgb value = span * rule.weights[i] * std::sin(theta) * phi_weight * s.z * brdf.eval(s, v);
         eval_basis(bands, s, std::span<double>(basis));
         for (std::size_t k = 0; k < basis.size(); ++k) sum[k] += basis[k] * value;
       }

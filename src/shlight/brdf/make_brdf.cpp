@@ -10,8 +10,10 @@
 
 #include "shlight/brdf/blinn_phong.h"
 #include "shlight/brdf/cook_torrance.h"
+#include "shlight/brdf/cornell.h"
 #include "shlight/brdf/ggx.h"
 #include "shlight/brdf/lambert.h"
+#include "shlight/brdf/merl.h"
 #include "shlight/brdf/metallic_roughness.h"
 #include "shlight/brdf/oren_nayar.h"
 #include "shlight/brdf/ward.h"
@@ -26,7 +28,8 @@ using Values = std::vector<Rgb>;
 struct Maker {
   BrdfModel model;
   std::function<std::unique_ptr<Brdf>(const Values&)> make;
-  std::function<std::unique_ptr<Brdf>(const std::string&)> load;  // of measured ones, in place of make
+  // Of measured ones, in place of make: from a file, with what there is to warn of.
+  std::function<std::unique_ptr<Brdf>(const std::string&, std::vector<std::string>&)> load;
 };
 
 BrdfParameter colour(std::string key, double value) {
@@ -71,6 +74,20 @@ std::vector<Maker> make_makers() {
       [](const Values& v) { return make_blinn_phong(v[0], v[1], v[2].r); });
   add("metallic-roughness", {colour("base", 0.8), number("metallic", 0, 1, 0), number("roughness", 0, 1, 0.5)},
       [](const Values& v) { return make_metallic_roughness(v[0], v[1].r, v[2].r); });
+  const auto add_measured = [&](std::string name, auto load) { makers.push_back({{std::move(name), {}}, {}, load}); };
+  add_measured("merl", [](const std::string& file, std::vector<std::string>& warnings) {
+    MerlBrdf merl = load_merl(file);
+    if (merl.missing > 0)
+      warnings.push_back(fmt::format("{}: {} of {} samples are negative, which marks them as not measured: left out",
+                                     file, merl.missing, merl.samples));
+    return std::move(merl.brdf);
+  });
+  add_measured("cornell", [](const std::string& file, std::vector<std::string>& warnings) {
+    CornellBrdf cornell = load_cornell(file);
+    if (cornell.negative > 0)
+      warnings.push_back(fmt::format("{}: {} spectral values are negative: taken as 0", file, cornell.negative));
+    return std::move(cornell.brdf);
+  });
   return makers;
 }
 
@@ -148,7 +165,7 @@ std::string describe_brdf_models() {
   return text;
 }
 
-std::unique_ptr<Brdf> make_brdf(const std::string& material) {
+std::unique_ptr<Brdf> make_brdf(const std::string& material, std::vector<std::string>* warnings) {
   const std::size_t colon = std::min(material.find(':'), material.size());
   const std::string name = material.substr(0, colon);
   const auto maker =
@@ -161,7 +178,10 @@ std::unique_ptr<Brdf> make_brdf(const std::string& material) {
   const std::string rest = colon < material.size() ? material.substr(colon + 1) : "";
   if (maker->load) {
     if (rest.empty()) throw Error(name, "names no file", name + ":FILE");
-    return maker->load(rest);
+    std::vector<std::string> all;
+    auto brdf = maker->load(rest, all);
+    if (warnings) *warnings = std::move(all);
+    return brdf;
   }
 
   const std::vector<BrdfParameter>& parameters = maker->model.parameters;

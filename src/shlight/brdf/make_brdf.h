@@ -12,8 +12,9 @@ namespace shlight {
 
 // "name" or "name:key=value,key=value,…", for instance "cook-torrance:m=0.5,f0=0.9" or "lambert:rho=0.8/0.5/0.2": what
 // is a colour takes one number or red/green/blue. What is not given has its default. "merl:FILE" and "cornell:FILE" are
-// measured. Throws Error that names the model, the parameter and what it may be.
-std::unique_ptr<Brdf> make_brdf(const std::string& material);
+// measured; what was wrong with the file and could be repaired goes to `warnings`. Throws Error that names the model,
+// the parameter and what it may be.
+std::unique_ptr<Brdf> make_brdf(const std::string& material, std::vector<std::string>* warnings = nullptr);
 
 // One parameter of a model, for help texts and sliders.
 struct BrdfParameter {
@@ -30,7 +31,7 @@ struct BrdfModel {
 };
 const std::vector<BrdfModel>& brdf_models();
 
-// All of it on one line for each model: "cook-torrance:m=0.01…1 (0.3),f0=0…1 (0.04)".
+// A line for each model, as "  cook-torrance:m=0.01…1,f0=0…1".
 std::string describe_brdf_models();
 
 }  // namespace shlight

@@ -9,6 +9,7 @@
 #include "shlight/core/assert.h"
 #include "shlight/sh/basis.h"
 #include "shlight/sh/project.h"
+#include "shlight/sh/rotation.h"
 #include "shlight/sh/zonal.h"
 
 // Coordinates of a lobe in the half vector. Let t = (t_x, t_y) = (h_x, h_y)/h_z be its slopes and v = (sin θ cos φ,
@@ -147,11 +148,15 @@ void add_hemisphere(const View& view, bool half, int nodes, Sum& sum) {
   }
 }
 
-// Where rays are cut into pieces: 0, kinks, r_max.
+// Where rays are cut into pieces: 0, kinks, r_max, ascending.
 struct Cuts {
   std::array<double, 5> r{};
-  int count = 0;
-  void add(double value) { r[static_cast<std::size_t>(count++)] = value; }
+  std::size_t count = 0;
+  void add(double value) {
+    std::size_t at = count++;
+    for (; at > 0 && r[at - 1] > value; --at) r[at] = r[at - 1];
+    r[at] = value;
+  }
 };
 
 // The root of p(r) = 3 q − 2 − (q + 2) S r² in (0, r_max), q = 1 + B r, by Newton's steps kept between two ends.
@@ -176,7 +181,6 @@ Cuts make_cuts(LobeShape shape, double slope, double square, double r_max) {
     if (slope * r_max > 1) cuts.add(1 / slope);
     cuts.add(find_shadowing_kink(slope, square, r_max));
     if (slope > 0 && slope * slope > square) cuts.add(slope / square);
-    std::sort(cuts.r.begin(), cuts.r.begin() + cuts.count);
   }
   cuts.add(r_max);
   return cuts;
@@ -201,9 +205,9 @@ void add_half_vector(const View& view, const BrdfLobe& lobe, bool half, int node
       const double root = std::sqrt(slope * slope + square);
       const double r_max = slope > 0 ? (slope + root) / square : 1 / (root - slope);
       const Cuts cuts = make_cuts(lobe.shape, slope, square, r_max);
-      for (int piece = 0; piece + 1 < cuts.count; ++piece) {
-        const double begin = std::atan(cuts.r[static_cast<std::size_t>(piece)]);
-        const double span = std::atan(cuts.r[static_cast<std::size_t>(piece) + 1]) - begin;
+      for (std::size_t piece = 0; piece + 1 < cuts.count; ++piece) {
+        const double begin = std::atan(cuts.r[piece]);
+        const double span = std::atan(cuts.r[piece + 1]) - begin;
         for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
           // 1 − (1−x)² and its derivative.
           const double rest = 1 - rule.nodes[i], r = std::tan(begin + span * (1 - rest * rest));
@@ -230,7 +234,7 @@ RgbCoefficients project_lobe(const Brdf& brdf, std::size_t index, Vec3d v, int b
     return coefficients;
   }
   // An isotropic model is the same on both sides of the plane of normal and view, so that half of it is enough, with
-  // the view turned into φ = 0 and its coefficients back: those of m < 0 are zero there.
+  // the view turned into φ = 0, and its coefficients back.
   const View given = make_view(v);
   const bool half = brdf.traits().symmetry == BrdfSymmetry::kIsotropic;
   const View view = half ? make_view({given.sine, 0, given.cosine}) : given;
@@ -240,8 +244,11 @@ RgbCoefficients project_lobe(const Brdf& brdf, std::size_t index, Vec3d v, int b
   else
     add_half_vector(view, lobe, half, nodes, sum);
   RgbCoefficients coefficients = sum.result();
-  if (half) turn_about_normal(given.cos_phi, given.sin_phi, coefficients);
-  return coefficients;
+  if (!half) return coefficients;
+  // The other half takes these back.
+  for (int l = 0; l < bands; ++l)
+    for (int m = -l; m < 0; ++m) coefficients.at(l, m) = {};
+  return rotate_about_z(std::atan2(given.sin_phi, given.cos_phi), coefficients);
 }
 
 double largest(const RgbCoefficients& coefficients) {
@@ -258,22 +265,9 @@ double largest_difference(const RgbCoefficients& a, const RgbCoefficients& b) {
 
 }  // namespace
 
-void turn_about_normal(double cos_phi, double sin_phi, RgbCoefficients& coefficients) {
-  double c = 1, s = 0;  // cos mφ, sin mφ
-  for (int m = 0; m < coefficients.bands(); ++m) {
-    for (int l = m; l < coefficients.bands(); ++l) {
-      const Rgb value = coefficients.at(l, m);
-      coefficients.at(l, -m) = s * value;
-      coefficients.at(l, m) = c * value;
-    }
-    const double next = c * cos_phi - s * sin_phi;
-    s = s * cos_phi + c * sin_phi;
-    c = next;
-  }
-}
-
 BrdfProjection project_brdf(const Brdf& brdf, Vec3d v, int bands, const ProjectBrdfParams& params) {
   SHLIGHT_ASSERT_GE(bands, 1);
+  SHLIGHT_ASSERT_LT(0.0, v.z);
   BrdfProjection result{RgbCoefficients(bands)};
   for (std::size_t lobe = 0; lobe < brdf.lobes().size(); ++lobe) {
     RgbCoefficients before = project_lobe(brdf, lobe, v, bands, kLevels[0]);

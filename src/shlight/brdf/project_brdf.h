@@ -41,10 +41,6 @@ RgbCoefficients project_brdf_fixed(const Brdf& brdf, Vec3d v, int bands, std::sp
 // The fewest nodes of each lobe with which all views come within `tolerance` of the largest |coefficient|.
 std::vector<int> choose_nodes(const Brdf& brdf, int bands, double tolerance);
 
-// Turns coefficients of a function that is even in y (all of m < 0 are zero) about the normal, from azimuth 0 to the
-// one of that cosine and sine: F*_{l,m} = cos(mφ) F*_{l,m}(0), F*_{l,−m} = sin(mφ) F*_{l,m}(0).
-void turn_about_normal(double cos_phi, double sin_phi, RgbCoefficients& coefficients);
-
 // The classic way, for one vertex and one view: 4π/N Σ f_r(s_j, v) max(0, n·s_j) Y_i(s_j) over stratified samples of
 // the whole sphere, in world coordinates. Slow and noisy; kept as a reference. `normal` and `tangent` are orthogonal
 // and, as `view`, of unit length.

@@ -9,6 +9,7 @@
 #include "shlight/brdf/project_brdf.h"
 #include "shlight/core/assert.h"
 #include "shlight/core/parallel.h"
+#include "shlight/sh/rotation.h"
 
 namespace shlight {
 namespace {
@@ -144,8 +145,7 @@ RgbCoefficients eval_reflectance_table(const ReflectanceTable& table, Vec3d v) {
     const auto [low, share] = between(position * (table.width - 1), table.width);
     add(low, 0, 1 - share);
     add(low + 1, 0, share);
-    turn_about_normal(cos_phi, sin_phi, result);
-    return result;
+    return rotate_about_z(std::atan2(sin_phi, cos_phi), result);
   }
   const auto [column, x] = between(0.5 * (1 + position * cos_phi) * (table.width - 1), table.width);
   const auto [row, y] = between(0.5 * (1 + position * sin_phi) * (table.height - 1), table.height);

@@ -36,8 +36,9 @@
 // library's sequence, i = l(l+1) + m.
 //
 // Between entries, interpolate linearly: two of them, or bilinearly four. With 5 bands and the default sizes, that is
-// off by at most 2e-4 of the largest |coefficient| of the same view in isotropic tables, 3e-3 in anisotropic ones; by
-// 2e-3 and 7e-3 beyond 80° with the forms kWard and kDuer of ward.h, which have no bound there.
+// off by at most 2.5e-4 of the largest |coefficient| of the same view in isotropic tables, 3.5e-3 in anisotropic ones.
+// Beyond 80° it is 1e-3 for Blinn and Phong's highlight, which fades there, and 2e-3 and 7e-3 for the forms kWard and
+// kDuer of ward.h, which have no bound.
 //
 // Horizon means 89.9° here, since nothing is seen from the horizon itself.
 //
