@@ -1,0 +1,211 @@
+#include "shlight/render/reflectance_renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "shlight/brdf/make_brdf.h"
+#include "shlight/brdf/metallic_roughness.h"
+#include "shlight/render/render.h"
+#include "shlight/render/render_test_util.h"
+#include "shlight/scene/shapes.h"
+#include "shlight/sh/zonal.h"
+
+namespace shlight {
+namespace {
+
+constexpr int kSize = 129;
+
+// Of the largest radiance: half floats, a normal interpolated between 192 columns, a view that is parallel to 1/4°.
+constexpr double kShadingTolerance = 6e-3;
+
+ReflectanceTableParams table_params(int bands) {
+  ReflectanceTableParams params;
+  params.bands = bands;
+  return params;
+}
+
+RgbCoefficients test_light(int bands) {
+  RgbCoefficients light = constant_light(bands, {0.5, 0.6, 0.7});
+  light += delta_light(bands, {0.48, 0.64, 0.6}, {1, 2, 3});
+  light += delta_light(bands, {-0.6, 0.0, 0.8}, {2, 1, 0.5});
+  return light;
+}
+
+// Nearly parallel projection, in which a pixel's place gives the normal.
+RenderParams parallel_params(int bands) {
+  RenderParams params;
+  params.width = params.height = kSize;
+  params.bands = bands;
+  params.camera.azimuth = params.camera.elevation = 0;
+  params.camera.vertical_fov = 0.5;
+  return params;
+}
+
+Image draw(const Scene& scene, const std::vector<SurfaceReflectance>& surfaces, const RgbCoefficients& light,
+           const RenderParams& params) {
+  return render_reflectance(scene, surfaces, {light, {}}, params).radiance;
+}
+
+Rgb times(Rgb a, Vec3f b) {
+  return {a.r * b.x, a.g * b.y, a.b * b.z};
+}
+
+double largest_of(Rgb c) {
+  return std::max({std::abs(c.r), std::abs(c.g), std::abs(c.b)});
+}
+
+// What the sphere's pixels should be, in double: the light turned into each local frame, the table looked up there.
+void expect_as_in_double(const Image& image, const SurfaceReflectance& surface, Vec3f base_color,
+                         const RgbCoefficients& light, const std::string& where) {
+  double largest = 0, error = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double r = 0.97 * std::sqrt((i + 0.5) / 200), angle = 2.4 * i;
+    const int x = static_cast<int>((0.5 + 0.47 * r * std::cos(angle)) * kSize);
+    const int y = static_cast<int>((0.5 - 0.47 * r * std::sin(angle)) * kSize);
+    const double nx = ((x + 0.5) / kSize - 0.5) / 0.47, ny = (0.5 - (y + 0.5) / kSize) / 0.47;
+    const double nz2 = 1 - nx * nx - ny * ny;
+    // Where the surface is nearly edge-on, a pixel holds many views.
+    if (nz2 < 0.04) continue;
+    const Vec3d n = {nx, ny, std::sqrt(nz2)};
+    // The grooves of a lathe, as make_tangents has them.
+    const Vec3d along = {n.z, 0, -n.x}, t = (1 / std::sqrt(dot(along, along))) * along, b = cross(n, t);
+    const RgbCoefficients local = rotate(Rotation{{t, b, n}}, light);
+    const Vec3d view = {0, 0, 1}, v = {dot(t, view), dot(b, view), dot(n, view)};
+    Rgb expected = reflect_light(*surface.plain, v, local);
+    if (surface.tinted) expected = expected + times(reflect_light(*surface.tinted, v, local), base_color);
+    expected = {std::max(expected.r, 0.0), std::max(expected.g, 0.0), std::max(expected.b, 0.0)};
+    largest = std::max(largest, largest_of(expected));
+    error = std::max(error, largest_of(image.rgb(x, y) - expected));
+  }
+  EXPECT_GT(largest, 0) << where;
+  EXPECT_LT(error, kShadingTolerance * largest) << where;
+}
+
+class ReflectanceRendererTest : public GlTest {
+ protected:
+  // render_reflectance makes its own context.
+  void SetUp() override {
+    GlTest::SetUp();
+    context_.reset();
+  }
+
+  const Vec3f base_color_ = {0.9f, 0.5f, 0.2f};
+  const Scene sphere_ = make_test_scene(make_ellipsoid({1, 1, 1}, 96), base_color_);
+};
+
+TEST_F(ReflectanceRendererTest, SphereIsTheSumInDouble) {
+  for (const int bands : {1, 3, 5})
+    for (const char* material :
+         {"lambert", "oren-nayar:sigma=0.6", "ward", "cook-torrance:m=0.3", "ggx:alpha=0.4,f0=0.9/0.6/0.2",
+          "ggx-aniso:ax=0.2,ay=0.5", "ward-aniso:rd=0.3/0.1/0.1"}) {
+      const auto surfaces = make_surface_reflectances(sphere_, *make_brdf(material), table_params(bands));
+      const RgbCoefficients light = test_light(bands);
+      expect_as_in_double(draw(sphere_, surfaces, light, parallel_params(bands)), surfaces[0], base_color_, light,
+                          std::string(material) + ", bands " + std::to_string(bands));
+    }
+}
+
+TEST_F(ReflectanceRendererTest, GlossyMaterialsOfScenesTakeTheirBaseColors) {
+  Scene sphere = sphere_;
+  for (const MetallicRoughness gloss : {MetallicRoughness{0, 0.4f}, {1, 0.6f}, {0.5f, 1}}) {
+    sphere.materials[0].gloss = gloss;
+    const auto surfaces = make_surface_reflectances(sphere, table_params(5));
+    ASSERT_TRUE(surfaces[0].tinted);
+    const RgbCoefficients light = test_light(5);
+    const Image image = draw(sphere, surfaces, light, parallel_params(5));
+    expect_as_in_double(image, surfaces[0], base_color_, light, std::to_string(gloss.metallic));
+    // And the base colour in the model itself says the same.
+    const Rgb base = {base_color_.x, base_color_.y, base_color_.z};
+    const SurfaceReflectance whole = {
+        make_reflectance_table(*make_metallic_roughness(base, gloss.metallic, gloss.roughness), table_params(5)), {}};
+    expect_as_in_double(image, whole, base_color_, light, std::to_string(gloss.metallic));
+  }
+}
+
+TEST_F(ReflectanceRendererTest, VerticesAndPixelsAgreeOnAFineMesh) {
+  for (const char* material : {"ggx:alpha=0.3,f0=0.9/0.6/0.2", "ggx-aniso:ax=0.2,ay=0.5"}) {
+    const auto surfaces = make_surface_reflectances(sphere_, *make_brdf(material), table_params(5));
+    RenderParams params = parallel_params(5);
+    const Image pixels = draw(sphere_, surfaces, test_light(5), params);
+    params.shade = Shade::kVertex;
+    const Image vertices = draw(sphere_, surfaces, test_light(5), params);
+    double largest = 0, error = 0;
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
+        // Not the outline, where a pixel holds part of the background.
+        const double nx = ((x + 0.5) / kSize - 0.5) / 0.47, ny = (0.5 - (y + 0.5) / kSize) / 0.47;
+        if (nx * nx + ny * ny > 0.96) continue;
+        largest = std::max(largest, largest_of(pixels.rgb(x, y)));
+        error = std::max(error, largest_of(pixels.rgb(x, y) - vertices.rgb(x, y)));
+      }
+    EXPECT_LT(error, 1e-2 * largest) << material;
+  }
+}
+
+TEST_F(ReflectanceRendererTest, LambertianSurfacesLookAsByIrradiance) {
+  const RgbCoefficients light = test_light(5);
+  const RenderParams params = parallel_params(5);
+  const Image irradiance = render_irradiance(sphere_, {light, {}}, params).radiance;
+  EXPECT_EQ(draw(sphere_, make_surface_reflectances(sphere_, table_params(5)), light, params).values,
+            irradiance.values);
+}
+
+TEST_F(ReflectanceRendererTest, TurningTheLightIsTurningTheView) {
+  // A sphere of an isotropic material under a light turned by 90° seen from 0° is that light seen from -90°.
+  const auto surfaces = make_surface_reflectances(sphere_, *make_brdf("ggx:alpha=0.3,f0=0.5"), table_params(5));
+  RenderParams params = parallel_params(5);
+  params.show_background = false;
+  params.rotate_light = rotation_about_y(std::numbers::pi / 2);
+  const Image turned = draw(sphere_, surfaces, test_light(5), params);
+  params.rotate_light = {};
+  params.camera.azimuth = -90;
+  const Image seen = draw(sphere_, surfaces, test_light(5), params);
+  double largest = 0, error = 0;
+  for (std::size_t i = 0; i < turned.values.size(); ++i) {
+    largest = std::max(largest, std::abs(double{turned.values[i]}));
+    error = std::max(error, std::abs(double{turned.values[i]} - seen.values[i]));
+  }
+  EXPECT_LT(error, kShadingTolerance * largest);
+}
+
+TEST_F(ReflectanceRendererTest, ThingsHaveMaterialsOfTheirOwn) {
+  // Two spheres side by side: one mirrors sharply, the other is Lambertian; each looks as it does alone.
+  Scene both = sphere_;
+  both.materials.push_back(both.materials[0]);
+  both.materials[1].gloss = MetallicRoughness{1, 0.4f};
+  both.meshes.push_back(both.meshes[0]);
+  both.meshes[1].material = 1;
+  both.instances = {{0, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1.5f, 0, 0, 1}},
+                    {1, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.5f, 0, 0, 1}}};
+  Scene swapped = both;
+  std::swap(swapped.instances[0].to_world, swapped.instances[1].to_world);
+  RenderParams params = parallel_params(5);
+  params.width = 2 * kSize;
+  params.show_background = false;
+  const RgbCoefficients light = test_light(5);
+  const Image a = draw(both, make_surface_reflectances(both, table_params(5)), light, params);
+  const Image b = draw(swapped, make_surface_reflectances(swapped, table_params(5)), light, params);
+  // Distant lights do not see where a thing is.
+  const int x = params.width / 4, y = params.height / 2;
+  const double difference = largest_of(a.rgb(x, y) - a.rgb(params.width - 1 - x, y));
+  EXPECT_GT(difference, 0.01);
+  EXPECT_LT(largest_of(a.rgb(x, y) - b.rgb(x + params.width / 2, y)), 0.1 * difference);
+}
+
+TEST_F(ReflectanceRendererTest, WhiteFurnace) {
+  // A mirror that takes nothing cannot be seen in constant light, but for what single bounces between facets lose.
+  const auto surfaces = make_surface_reflectances(sphere_, *make_brdf("ggx:alpha=0.1,f0=1"), table_params(5));
+  const Image image = draw(sphere_, surfaces, constant_light(5, {1, 1, 1}), parallel_params(5));
+  const Rgb center = image.rgb(kSize / 2, kSize / 2);
+  EXPECT_NEAR(center.g, 1, 5e-3);
+  for (const float value : image.values) EXPECT_LE(value, 1.005f);
+}
+
+}  // namespace
+}  // namespace shlight
