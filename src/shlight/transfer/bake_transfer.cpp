@@ -6,13 +6,13 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <numbers>
 #include <thread>
 #include <utility>
 
 #include "shlight/core/error.h"
 #include "shlight/core/parallel.h"
 #include "shlight/sh/coefficients.h"
+#include "shlight/transfer/ambient_occlusion.h"
 #include "shlight/transfer/bake_state.h"
 #include "shlight/transfer/bounce.h"
 #include "shlight/transfer/choose_density.h"
@@ -271,15 +271,9 @@ class Baker {
         for (std::size_t c = 0; c < channels; ++c)
           std::copy_n(values.data() + n * (channels * site + c), kept,
                       transfer.coefficients.data() + kept * (channels * v + c));
-        // ∫ V max(0, n·s)/π Y_i is √(1/4π) of the open part for i = 0 and √(3/4π) of the mean y, z, x for 1 … 3.
-        const float* direct = state_.direct.data() + n * site;
-        transfer.ambient_occlusion[v] =
-            std::clamp(static_cast<float>(std::sqrt(4 * std::numbers::pi) * double{direct[0]}), 0.0f, 1.0f);
-        const Vec3f mean = {direct[3], direct[1], direct[2]};
-        const float length = std::sqrt(dot(mean, mean));
-        // What is open by less than a ray in many thousands is rounding.
-        constexpr float kLeast = 1e-5f;
-        transfer.bent_normals[v] = length > kLeast ? (1 / length) * mean : world_.normals[v];
+        const std::span<const float> direct = std::span(state_.direct).subspan(n * site, n);
+        transfer.ambient_occlusion[v] = eval_ambient_occlusion(direct);
+        transfer.bent_normals[v] = eval_bent_normal(direct, world_.normals[v]);
       }
     });
     transfer.seconds = seconds_since(begin_);

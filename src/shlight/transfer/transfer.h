@@ -82,9 +82,8 @@ struct Transfer {
   int bands = 0;
   int channels = 1;                      // 3 (red, green, blue) where light has met coloured surfaces
   std::vector<float> coefficients;       // coefficient i of channel c of vertex v: [(v · channels + c) · bands² + i]
-  std::vector<float> ambient_occlusion;  // ∫ V max(0, n·s)/π ds of each vertex, in [0, 1]: 1 is open
-  std::vector<Vec3f> bent_normals;       // of unit length: the mean unoccluded direction, ∫ V max(0, n·s) s ds; the
-                                         // normal where nothing is open
+  std::vector<float> ambient_occlusion;  // eval_ambient_occlusion of each vertex's shadowed transfer
+  std::vector<Vec3f> bent_normals;       // eval_bent_normal of it
   std::vector<std::size_t> first_vertex;  // of each instance, and at the end the number of all vertices
   std::uint64_t hash = 0;                 // hash_bake of what it was made from
   std::uint64_t rays = 0;                 // all that it took, over all calls where it went on from a checkpoint
