@@ -6,17 +6,18 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <numbers>
 #include <thread>
 #include <utility>
 
 #include "shlight/core/error.h"
 #include "shlight/core/parallel.h"
 #include "shlight/sh/coefficients.h"
+#include "shlight/transfer/ambient_occlusion.h"
 #include "shlight/transfer/bake_state.h"
 #include "shlight/transfer/bounce.h"
 #include "shlight/transfer/choose_density.h"
 #include "shlight/transfer/cosine_transfer.h"
+#include "shlight/transfer/pilot.h"
 #include "shlight/transfer/shadowed_monte_carlo.h"
 #include "shlight/transfer/sites.h"
 #include "shlight/transfer/trace_occlusion.h"
@@ -92,6 +93,7 @@ class Baker {
     while (state_.pass < num_passes()) {
       if (state_.pass == 0) {
         run_pass([&](std::size_t b) { return shade(b); });
+        if (params_.samples > 0) estimate_error();
         if (bounces()) start_bounces();
       } else {
         run_bounce();
@@ -100,8 +102,9 @@ class Baker {
       state_.batches_done = 0;
     }
     if (!params_.checkpoint.empty()) save_checkpoint(params_.checkpoint, state_);
-    tell(1);
-    return collect();
+    Transfer transfer = collect();
+    transfer.seconds = tell(1);
+    return transfer;
   }
 
  private:
@@ -171,6 +174,35 @@ class Baker {
     });
   }
 
+  // Of a fixed number of samples: some sites once more, with others.
+  void estimate_error() {
+    const std::vector<SiteRange> groups = pilot_groups(sites_);
+    const std::size_t n = num_values();
+    std::vector<double> baked;
+    for (const auto& [begin, end] : groups) {
+      const auto values = std::span(state_.direct).subspan(n * begin, n * (end - begin));
+      baked.insert(baked.end(), values.begin(), values.end());
+    }
+    PilotTransfer pilot;
+    if (is_monte_carlo()) {
+      const SphereSamples others = make_sphere_samples(bands(), strata_for(params_.samples), ~params_.seed);
+      std::vector<std::vector<float>> values(groups.size());
+      std::vector<std::size_t> rays(groups.size());
+      parallel_for(groups.size(), params_.threads, [&](std::size_t g) {
+        values[g].resize(n * (groups[g].end - groups[g].begin));
+        rays[g] = sample_shadowed_transfer(*tracer_, sites_, groups[g].begin, groups[g].end, others, values[g]);
+      });
+      for (std::size_t g = 0; g < groups.size(); ++g) {
+        pilot.shadowed.insert(pilot.shadowed.end(), values[g].begin(), values[g].end());
+        pilot.rays += rays[g];
+      }
+    } else {
+      pilot = trace_pilot(*tracer_, sites_, groups, plan_, ~params_.seed, params_.threads);
+    }
+    state_.estimated_error = error_of_independent(baked, pilot.shadowed);
+    state_.rays += pilot.rays, rays_here_ += pilot.rays;
+  }
+
   // Before light meets a surface it has no colour.
   void start_bounces() {
     const std::size_t n = num_values();
@@ -236,8 +268,8 @@ class Baker {
     return std::min(1.0, done / work_before(static_cast<double>(num_passes())));
   }
 
-  void tell(double fraction) const {
-    if (!watcher_) return;
+  // Returns the seconds that it told.
+  double tell(double fraction) const {
     BakeStatus status;
     status.fraction_done = fraction;
     status.seconds = seconds_since(begin_);
@@ -245,7 +277,8 @@ class Baker {
     if (rays_here_ > 0 && status.seconds > 0) status.rays_per_second = static_cast<double>(rays_here_) / status.seconds;
     if (fraction > fraction_at_start_)
       status.seconds_left = status.seconds * (1 - fraction) / (fraction - fraction_at_start_);
-    if (!watcher_(status)) throw Cancelled();
+    if (watcher_ && !watcher_(status)) throw Cancelled();
+    return status.seconds;
   }
 
   // From sites to vertices.
@@ -271,18 +304,11 @@ class Baker {
         for (std::size_t c = 0; c < channels; ++c)
           std::copy_n(values.data() + n * (channels * site + c), kept,
                       transfer.coefficients.data() + kept * (channels * v + c));
-        // ∫ V max(0, n·s)/π Y_i is √(1/4π) of the open part for i = 0 and √(3/4π) of the mean y, z, x for 1 … 3.
-        const float* direct = state_.direct.data() + n * site;
-        transfer.ambient_occlusion[v] =
-            std::clamp(static_cast<float>(std::sqrt(4 * std::numbers::pi) * double{direct[0]}), 0.0f, 1.0f);
-        const Vec3f mean = {direct[3], direct[1], direct[2]};
-        const float length = std::sqrt(dot(mean, mean));
-        // What is open by less than a ray in many thousands is rounding.
-        constexpr float kLeast = 1e-5f;
-        transfer.bent_normals[v] = length > kLeast ? (1 / length) * mean : world_.normals[v];
+        const std::span<const float> direct = std::span(state_.direct).subspan(n * site, n);
+        transfer.ambient_occlusion[v] = eval_ambient_occlusion(direct);
+        transfer.bent_normals[v] = eval_bent_normal(direct, world_.normals[v]);
       }
     });
-    transfer.seconds = seconds_since(begin_);
     return transfer;
   }
 
@@ -307,7 +333,7 @@ class Baker {
 };
 
 // No vertex looks at another: no sites, no rays.
-Transfer bake_cosine(const Scene& scene, const BakeParams& params) {
+Transfer bake_cosine(const Scene& scene, const BakeParams& params, const BakeWatcher& watcher) {
   const Clock::time_point begin = Clock::now();
   WorldMesh world = make_world_mesh(scene);
   Transfer transfer;
@@ -324,6 +350,11 @@ Transfer bake_cosine(const Scene& scene, const BakeParams& params) {
   transfer.ambient_occlusion.assign(vertices, 1);
   transfer.bent_normals = std::move(world.normals);
   transfer.seconds = seconds_since(begin);
+  BakeStatus status;
+  status.fraction_done = 1;
+  status.seconds = transfer.seconds;
+  status.seconds_left = 0;
+  if (watcher && !watcher(status)) throw Cancelled();
   return transfer;
 }
 
@@ -331,7 +362,7 @@ Transfer bake_cosine(const Scene& scene, const BakeParams& params) {
 
 Transfer bake_transfer(const Scene& scene, const BakeParams& params, const BakeWatcher& watcher) {
   check_params(params);
-  if (params.kind == TransferKind::kCosine) return bake_cosine(scene, params);
+  if (params.kind == TransferKind::kCosine) return bake_cosine(scene, params, watcher);
   return Baker(scene, params, watcher).bake();
 }
 

@@ -17,8 +17,7 @@ struct DensityChoice {
 // The density at which the root mean square error of shadowed transfer over all sites is at most `error`, relative to
 // the transfer's own root mean square, as far as kMaxTransferSamples allow.
 //
-// Traces some sites twice with independent samples: the difference of the two is √2 times the error, whatever the error
-// comes from. From density to density it is known how the error falls (error_ratio).
+// Traces a pilot (pilot.h) twice. From density to density it is known how the error falls (error_ratio).
 DensityChoice choose_density(const Tracer& tracer, const Sites& sites, int bands, double error, std::uint64_t seed,
                              int threads);
 
