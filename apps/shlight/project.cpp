@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -7,7 +6,6 @@
 #include <optional>
 
 #include "command.h"
-#include "shlight/core/error.h"
 #include "shlight/light/coefficient_file.h"
 #include "shlight/sh/project.h"
 #include "shlight/sh/sphere_samples.h"
