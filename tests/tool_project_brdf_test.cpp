@@ -62,6 +62,8 @@ TEST_F(ToolProjectBrdf, MonteCarloIsNearlyTheSame) {
 
 TEST_F(ToolProjectBrdf, BadMaterialsAreRefused) {
   expect_refused({"project-brdf", "phong", "--view", "0,0"}, "material 'phong'", "is not known");
+  expect_refused({"project-brdf", "ward", "--view", "0,0", "--method", "monte-carlo", "--samples", "20000000"},
+                 "--samples 20000000", "too much memory");
   expect_refused({"project-brdf", "ward:sigma=2", "--view", "0,0"}, "ward", "sigma is 2");
   expect_refused({"project-brdf", "merl:" + path("none.binary"), "--view", "0,0"}, path("none.binary"), "");
   expect_refused({"project-brdf", "merl:" + write("short.binary", "MERL"), "--view", "0,0"}, path("short.binary"),

@@ -66,6 +66,16 @@ LoadedLight load_light_aloud(const std::string& light, const LoadLightParams& pa
   return loaded;
 }
 
+SphereSamples make_monte_carlo_samples(int bands, int samples, std::uint64_t seed) {
+  // Samples are kept with their basis values, eight bytes each.
+  constexpr std::int64_t kMaxValues = 1 << 28;
+  const std::int64_t most = kMaxValues / num_coefficients(bands);
+  if (samples > most)
+    throw Error(fmt::format("--samples {}", samples), "needs too much memory",
+                fmt::format("at most {} samples at {} bands", most, bands));
+  return make_sphere_samples(bands, strata_for(samples), seed);
+}
+
 std::string table_of(const RgbCoefficients& coefficients) {
   std::string text = "  l   m           red         green          blue\n";
   for (int l = 0; l < coefficients.bands(); ++l)

@@ -10,6 +10,7 @@
 #include "shlight/core/progress.h"
 #include "shlight/light/light.h"
 #include "shlight/sh/rotation.h"
+#include "shlight/sh/sphere_samples.h"
 #include "shlight/transfer/transfer.h"
 
 namespace shlight::app {
@@ -73,6 +74,9 @@ CLI::Validator number_from(double low, double high);
 
 // Loads a light and says on stderr what is worth knowing about it.
 LoadedLight load_light_aloud(const std::string& light, const LoadLightParams& params);
+
+// Random samples of --method monte-carlo. Throws Error where they would take too much memory.
+SphereSamples make_monte_carlo_samples(int bands, int samples, std::uint64_t seed);
 
 // A table of coefficients, a line each: l, m, red, green, blue to six digits.
 std::string table_of(const RgbCoefficients& coefficients);

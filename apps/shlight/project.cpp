@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -7,7 +6,6 @@
 #include <optional>
 
 #include "command.h"
-#include "shlight/core/error.h"
 #include "shlight/light/coefficient_file.h"
 #include "shlight/sh/project.h"
 #include "shlight/sh/sphere_samples.h"
@@ -31,13 +29,7 @@ struct ProjectArguments {
 
 RgbCoefficients project(const Light& light, const ProjectArguments& arguments) {
   if (arguments.method == "exact") return light.project(arguments.bands, arguments.threads);
-  // Samples are kept with their basis values, eight bytes each.
-  constexpr std::int64_t kMaxValues = 1 << 28;
-  const std::int64_t most = kMaxValues / num_coefficients(arguments.bands);
-  if (arguments.samples > most)
-    throw Error(fmt::format("--samples {}", arguments.samples), "needs too much memory",
-                fmt::format("at most {} samples at {} bands", most, arguments.bands));
-  const auto samples = make_sphere_samples(arguments.bands, strata_for(arguments.samples), arguments.seed);
+  const SphereSamples samples = make_monte_carlo_samples(arguments.bands, arguments.samples, arguments.seed);
   const auto projection = project_monte_carlo([&](Vec3d d) { return light.radiance(d); }, samples);
   double largest = 0;
   for (const Rgb error : projection.standard_error.values()) largest = std::max({largest, error.r, error.g, error.b});

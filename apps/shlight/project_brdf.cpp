@@ -37,7 +37,7 @@ BrdfProjection project(const Brdf& brdf, const ProjectBrdfArguments& arguments) 
   const double theta = arguments.theta * std::numbers::pi / 180, phi = arguments.phi * std::numbers::pi / 180;
   const Vec3d v = {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
   if (arguments.method == "exact") return project_brdf(brdf, v, arguments.bands);
-  const auto samples = make_sphere_samples(arguments.bands, strata_for(arguments.samples), arguments.seed);
+  const SphereSamples samples = make_monte_carlo_samples(arguments.bands, arguments.samples, arguments.seed);
   return {project_brdf_monte_carlo(brdf, {0, 0, 1}, {1, 0, 0}, v, samples)};
 }
 
@@ -91,7 +91,7 @@ void add_project_brdf(CLI::App& program, Run& run) {
       ->check(CLI::IsMember({"exact", "monte-carlo"}));
   command->add_option("--samples", arguments->samples, "Samples of monte-carlo, rounded up to a square")
       ->capture_default_str()
-      ->check(CLI::Range(9, 1'000'000).description("9 to 1000000"));
+      ->check(CLI::Range(9, 100'000'000).description("9 to 100000000"));
   command->add_option("--seed", arguments->seed, "Of monte-carlo: another seed, other samples")->capture_default_str();
   command->add_flag("--json", arguments->json, "Print JSON: material, view, bands, change, albedo, coefficients");
   command->footer("Materials, with their ranges:\n" + describe_brdf_models() +

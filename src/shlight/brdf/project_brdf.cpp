@@ -8,6 +8,7 @@
 
 #include "shlight/core/assert.h"
 #include "shlight/sh/basis.h"
+#include "shlight/sh/clones.h"
 #include "shlight/sh/project.h"
 #include "shlight/sh/rotation.h"
 #include "shlight/sh/zonal.h"
@@ -22,9 +23,9 @@
 //     (a² + b²) r² − 2 B r − 1 < 0,   B = tan θ (a cos φ + b sin φ),   so r < r_max = (B + √(B² + a² + b²))/(a² + b²).
 //
 // r = 0 is always inside: polar coordinates about the origin cover all of the upper hemisphere, with the horizon at
-// r_max. Along the ray, a lobe of width 1 falls in r as 1/(1 + r²)^k or quicker, which r = tan ζ makes smooth; ζ runs
-// to arctan r_max and is stretched there by 1 − (1−x)², which turns the square root that Ward's model has at the
-// horizon into a straight line.
+// r_max. Along the ray, a lobe of width 1 falls in r as 1/(1 + r²)^k or quicker, which r = y/(1 − y) makes smooth in y;
+// y is stretched at its end by 1 − (1−x)², which turns the square root that Ward's model has at the horizon into a
+// straight line.
 //
 // Cook and Torrance's G = min{1, 2 n·h n·v / v·h, 2 n·h n·s / v·h} has kinks where two of the three are the same. In
 // the terms above, with q = 1 + r B = v·h / (h_z cos θ) and S = a² + b², these are
@@ -61,7 +62,7 @@ UnitRule make_unit_rule(int count) {
 }
 
 // The numbers of nodes that are tried, and their rules, made once.
-constexpr std::array<int, 14> kLevels = {6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512};
+constexpr std::array<int, 14> kLevels = {6, 8, 12, 16, 20, 24, 28, 32, 40, 48, 64, 96, 128, 192};
 
 const UnitRule& unit_rule(int count) {
   static const std::map<int, UnitRule> kRules = [] {
@@ -83,6 +84,10 @@ View make_view(Vec3d v) {
   const double sine = std::sqrt(v.x * v.x + v.y * v.y);
   if (sine <= 0) return {v, 0, 1, 1, 0};
   return {v, sine, v.z, v.x / sine, v.y / sine};
+}
+
+SHLIGHT_CLONES void add_scaled(double value, const double* basis, double* sum, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) sum[i] += value * basis[i];
 }
 
 // Adds up f_r s·n Y(s) over nodes.
@@ -113,9 +118,7 @@ class Sum {
   }
 
  private:
-  void add_to(std::vector<double>& sum, double value) {
-    for (std::size_t i = 0; i < basis_.size(); ++i) sum[i] += value * basis_[i];
-  }
+  void add_to(std::vector<double>& sum, double value) { add_scaled(value, basis_.data(), sum.data(), basis_.size()); }
 
   const Brdf& brdf_;
   std::size_t lobe_;
@@ -186,6 +189,11 @@ Cuts make_cuts(LobeShape shape, double slope, double square, double r_max) {
   return cuts;
 }
 
+// y of r.
+double to_unit(double r) {
+  return r / (1 + r);
+}
+
 // Integrates over slopes of the half vector, as derived above.
 void add_half_vector(const View& view, const BrdfLobe& lobe, bool half, int nodes, Sum& sum) {
   const UnitRule& rule = unit_rule(nodes);
@@ -206,15 +214,14 @@ void add_half_vector(const View& view, const BrdfLobe& lobe, bool half, int node
       const double r_max = slope > 0 ? (slope + root) / square : 1 / (root - slope);
       const Cuts cuts = make_cuts(lobe.shape, slope, square, r_max);
       for (std::size_t piece = 0; piece + 1 < cuts.count; ++piece) {
-        const double begin = std::atan(cuts.r[piece]);
-        const double span = std::atan(cuts.r[piece + 1]) - begin;
+        const double begin = to_unit(cuts.r[piece]), span = to_unit(cuts.r[piece + 1]) - begin;
         for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
           // 1 − (1−x)² and its derivative.
-          const double rest = 1 - rule.nodes[i], r = std::tan(begin + span * (1 - rest * rest));
+          const double rest = 1 - rule.nodes[i], y = begin + span * (1 - rest * rest), r = y / (1 - y);
           const double tx = r * a, ty = r * b, hz = 1 / std::sqrt(1 + r * r * square);
           const double vh = hz * view.cosine * (1 + r * slope);
-          // The slopes' area is w_x w_y r dr dψ, and dr = (1 + r²) dζ.
-          const double dr = (1 + r * r) * span * 2 * rest * rule.weights[i];
+          // The slopes' area is w_x w_y r dr dψ, and dr = (1 + r)² dy.
+          const double dr = (1 + r) * (1 + r) * span * 2 * rest * rule.weights[i];
           const double weight = 4 * vh * hz * hz * hz * wx * wy * r * dr * psi_weight;
           const double f = 2 * vh * hz;
           sum.add({f * tx - view.v.x, f * ty - view.v.y, f - view.v.z}, weight);
