@@ -40,6 +40,50 @@ for window in none auto; do
 done
 side_by_side "$images/ringing.png" "$work"/ringing_{sphere,knot}_none.png "$work"/ringing_{sphere,knot}_auto.png
 
+# What compression costs: bytes of a vertex's transfer against the change of radiance under the built-in lights.
+bake_points() {
+  local points=$1 compression
+  shift
+  for compression in "$@"; do
+    "$shlight" bake builtin:knot -o "$work/knot.glb" --transfer interreflected --bands 5 --samples 256 \
+      ${compression:+--compress "$compression"} --json >"$work/bake.json"
+    python3 -c 'import json, sys
+bake = json.load(open(sys.argv[1]))
+name = "{clusters} x {components}".format(**bake) if bake["clusters"] else "{bits} bits".format(**bake)
+print(bake["transfer_bytes_per_vertex"], bake["shading_error"]["rms"], bake["shading_error"]["max"], name, sep="\t")' \
+      "$work/bake.json" >>"$work/$points"
+  done
+}
+bake_points bits 16 8
+bake_points pca64 pca:64x{3,7,11,15,23}
+bake_points pca256 pca:256x{3,7,11,15,23}
+echo 'bytes, root mean square, worst, what:'
+cat "$work"/{bits,pca64,pca256}
+gnuplot <<END
+set terminal pngcairo size 960,560 font ",13" background "#ffffff"
+set output "$images/compression.png"
+set datafile separator "\t"
+set logscale xy
+set xrange [8:240]
+set yrange [1e-5:0.2]
+set xtics (8, 16, 32, 64, 128) nomirror
+set ytics ("0.001 %%" 1e-5, "0.01 %%" 1e-4, "0.1 %%" 1e-3, "1 %%" 1e-2, "10 %%" 1e-1) nomirror
+set border 3 linecolor "#666666"
+set grid xtics ytics linecolor "#dddddd" linetype 1
+set xlabel "bytes a vertex, tables of clusters included (as floats: 336)" textcolor "#333333"
+set ylabel "error of radiance, root mean square" textcolor "#333333"
+components(name) = word(name, 3)
+set key bottom left reverse Left spacing 1.3 textcolor "#333333"
+plot "$work/pca64" using 1:2 with linespoints linewidth 2 pointtype 7 pointsize 1.2 linecolor "#2a6fbb" \
+       title "clustered PCA, 64 clusters; beside: components", \
+     "$work/pca256" using 1:2 with linespoints linewidth 2 pointtype 7 pointsize 1.2 linecolor "#d1602a" \
+       title "clustered PCA, 256 clusters", \
+     "$work/bits" using 1:2 with points pointtype 5 pointsize 1.5 linecolor "#222222" title "fewer bits", \
+     "$work/bits" using 1:2:4 with labels offset 4,0.3 textcolor "#222222" notitle, \
+     "$work/pca64" using 1:2:(components(strcol(4))) with labels offset -2,-0.9 textcolor "#2a6fbb" notitle, \
+     "$work/pca256" using 1:2:(components(strcol(4))) with labels offset 2,0.9 textcolor "#d1602a" notitle
+END
+
 # One light in every layout, each beside the sphere that it lights: all spheres are alike.
 globe="fn:r=(0.2+0.8*max(0,x)+0.5*max(0,z))*(abs(sin(6*asin(y)))*abs(sin(6*atan2(x,-z)))*sqrt(1-y*y)>0.06?1:0.3)"
 globe+="+6*max(0,0.5*x+0.62*y-0.6*z)^12;"

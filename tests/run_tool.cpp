@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -68,13 +69,17 @@ ToolProcess::ToolProcess(const std::vector<std::string>& arguments, const RunToo
     // A group of its own, so that its children can be killed with it.
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) ::signal(signal, SIG_DFL);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ}) ::signal(signal, SIG_DFL);
     ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
     ::dup2(err_, STDERR_FILENO);
     if (standard_output >= 0)
       ::dup2(standard_output, STDOUT_FILENO);
     else
       ::close(STDOUT_FILENO);
+    if (params.max_file_bytes > 0) {
+      const rlimit limit = {params.max_file_bytes, params.max_file_bytes};
+      ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
     // Nothing else that the test has open.
     ::close_range(STDERR_FILENO + 1, ~0u, 0);
     ::execv(argv[0], argv.data());

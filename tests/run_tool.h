@@ -25,6 +25,7 @@ enum class Stdout { kCaptured, kClosed, kFullDisk, kNobodyReads };
 struct RunToolParams {
   double timeout = 60;  // seconds, after which the program is killed
   Stdout standard_output = Stdout::kCaptured;
+  unsigned long max_file_bytes = 0;  // that it can write into one file; 0: no limit
 };
 
 // The program, running. It is killed where the object goes before it ends.

@@ -71,6 +71,49 @@ TEST_F(ToolBake, FewerBitsCostLittle) {
   EXPECT_GT(quarter["shading_error"]["rms"].get<double>(), half["shading_error"]["rms"].get<double>());
 }
 
+// Clusters of vertices for the bytes of a few coefficients; what the file holds is what was measured.
+TEST_F(ToolBake, ClusteredPcaCostsLittle) {
+  const std::string file = path("a.glb");
+  const std::vector<std::string> bake = {"bake", "builtin:sphere", "-o", file, "--transfer", "cosine"};
+  const auto with = [&](const std::string& compression) {
+    std::vector<std::string> arguments = bake;
+    arguments.insert(arguments.end(), {"--compress", compression});
+    return run_json(arguments);
+  };
+  const auto little = with("pca:8x3"), more = with("pca:32x7"), usual = with("pca");
+  EXPECT_EQ(little["bits"], 16);
+  EXPECT_EQ(little["clusters"], 8);
+  EXPECT_EQ(usual["clusters"], num_pca_clusters({}, usual["vertices"].get<std::size_t>()));
+  EXPECT_EQ(usual["components"], PcaParams().components);
+  const double vertices = little["vertices"].get<double>();
+  EXPECT_NEAR(little["bytes_per_vertex"].get<double>(), 8 + 16 + 8 * 4 * 25 * 4 / vertices, 1e-9);
+  EXPECT_NEAR(little["transfer_bytes_per_vertex"].get<double>(), 8 + 8 * 4 * 25 * 4 / vertices, 1e-9);
+  EXPECT_LT(little["shading_error"]["rms"].get<double>(), 0.1);
+  EXPECT_LT(more["shading_error"]["rms"].get<double>(), 4e-3);
+  EXPECT_LT(usual["shading_error"]["rms"].get<double>(), 1e-3);
+  EXPECT_GT(usual["shading_error"]["rms"].get<double>(), 0);
+
+  const auto info = run_json({"info", file});
+  for (const char* key : {"clusters", "components", "bits", "bytes_per_vertex", "vertices"})
+    EXPECT_EQ(info[key], usual[key]) << key;
+  const Baked baked = load_baked(file);
+  const Transfer transfer = bake_transfer(make_sphere_scene(), cosine_params(5));
+  ASSERT_TRUE(baked.info.pca);
+  EXPECT_EQ(baked.transfer.coefficients, pca_coefficients(compress_pca(transfer)));
+}
+
+TEST_F(ToolBake, TellsWhetherItFits) {
+  const std::string model = write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  run({"bake", model, "-o", path("a.glb"), "--transfer", "cosine", "--compress", "8"});
+  EXPECT_EQ(run_json({"info", path("a.glb"), "--fits", model})["fits"], true);
+  EXPECT_FALSE(run_json({"info", path("a.glb")}).contains("fits"));
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
+  const ToolRun changed = run({"info", path("a.glb"), "--fits", model, "--json"});
+  EXPECT_EQ(nlohmann::json::parse(changed.out)["fits"], false);
+  EXPECT_NE(changed.err.find("no longer fits " + model), std::string::npos) << changed;
+  expect_refused({"info", model, "--fits", model}, model, "is no baked file");
+}
+
 // What is baked is a MODEL to every command, baking too.
 TEST_F(ToolBake, ABakedFileIsAModel) {
   run({"bake", "builtin:knot", "-o", path("a.glb"), "--transfer", "cosine", "--bands", "2"});
@@ -138,6 +181,11 @@ TEST_F(ToolBake, WrongUsageIsExplained) {
         {{"builtin:sphere", "-o", glb, "--samples", "0"}, "'0' is neither auto nor a number"},
         {{"builtin:sphere", "-o", glb, "--method", "monte-carlo"}, "monte-carlo needs a number of samples"},
         {{"builtin:sphere", "-o", glb, "--transfer", "cosine", "--samples", "9"}, "takes none"},
+        {{"builtin:sphere", "-o", glb, "--compress", "12"}, "'12' is none of 16, 8, pca"},
+        {{"builtin:sphere", "-o", glb, "--compress", "pca:8"}, "'pca:8' is none of 16, 8, pca"},
+        {{"builtin:sphere", "-o", glb, "--compress", "pca:0x3"}, "'pca:0x3' is not of 1 to 2048 clusters"},
+        {{"builtin:sphere", "-o", glb, "--compress", "pca:8x32"}, "and 1 to 31 components"},
+        {{"builtin:sphere", "-o", glb, "--checkpoint", "-1"}, "--checkpoint"},
         {{"builtin:sphere", "-o", glb, "--bounces", "2"}, "only with --transfer interreflected"},
         {{"builtin:sphere", "-o", glb, "--transfer", "interreflected", "--method", "monte-carlo", "--samples", "9"},
          "cosine and shadowed transfer only"}}) {

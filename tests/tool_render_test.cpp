@@ -175,6 +175,53 @@ TEST_F(ToolRender, CosineTransferLooksLikeIrradiance) {
   EXPECT_GE(json["bake_seconds"].get<double>(), 0);
 }
 
+// A baked file is drawn as what was baked into it, which takes no bake: as the same transfer freshly baked where it
+// was stored whole, and near it where it was compressed.
+TEST_F(ToolRender, BakedFilesAreDrawnAsTheyAre) {
+  const std::string glb = path("a.glb");
+  const std::vector<std::string> view = {"--light", axes_, "--size", "80x60", "-o", path("a.exr")};
+  const auto picture = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "render");
+    arguments.insert(arguments.end(), view.begin(), view.end());
+    const ToolRun drawn = run(arguments);
+    return std::pair{load_image(path("a.exr")).image, drawn.err};
+  };
+  const Image fresh = picture({"builtin:knot", "--method", "transfer", "--transfer", "cosine", "--bands", "4"}).first;
+  for (const auto& [compression, said, error] : {std::tuple{"", "32 bits", 0.0},
+                                                 {"16", "16 bits", 2e-3},
+                                                 {"8", "8 bits", 5e-2},
+                                                 {"pca:16x15", "16 clusters of 15 components", 2e-3}}) {
+    std::vector<std::string> bake = {"bake", "builtin:knot", "-o", glb, "--transfer", "cosine", "--bands", "4"};
+    if (*compression) bake.insert(bake.end(), {"--compress", compression});
+    run(bake);
+    const auto [image, err] = picture({glb, "--method", "transfer"});
+    EXPECT_NE(err.find("cosine transfer of"), std::string::npos) << err;
+    EXPECT_NE(err.find(said), std::string::npos) << err;
+    EXPECT_LE(max_difference(image, fresh), error * 6) << compression;
+  }
+  const Image two = picture({"builtin:knot", "--method", "transfer", "--transfer", "cosine", "--bands", "2"}).first;
+  EXPECT_LT(max_difference(picture({glb, "--method", "transfer", "--bands", "2"}).first, two), 6 * 1e-2);
+
+  const auto refuse = [&](const std::vector<std::string>& options, const std::string& wrong) {
+    std::vector<std::string> arguments = {"render", glb, "--method", "transfer"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    expect_refused(arguments, glb, wrong);
+  };
+  refuse({"--bands", "5"}, "holds 4 bands and not 5: --bands 1 to 4");
+  refuse({"--transfer", "shadowed"}, "holds cosine transfer, not shadowed");
+  refuse({"--transfer", "interreflected", "--bounces", "5"}, "holds cosine transfer, not interreflected");
+  refuse({"--samples", "64", "--transfer", "shadowed"}, "holds cosine transfer");
+  refuse({"--samples", "64"}, "is baked already: --samples cannot change it");
+}
+
+// Not after the hours that this would take to bake.
+TEST_F(ToolRender, WhatCannotBeWrittenIsToldBeforeBaking) {
+  const std::string output = path("missing/a.png");
+  expect_refused(
+      {"render", "builtin:scene", "--method", "transfer", "--samples", "65536", "--bands", "10", "-o", output}, output,
+      "cannot be written (");
+}
+
 TEST_F(ToolRender, QuietSaysNothing) {
   EXPECT_EQ(run({"--quiet", "render", "builtin:sphere", "--light", axes_, "--size", "8x8", "-o", path("a.png")}).err,
             "");

@@ -57,6 +57,11 @@ void check_bake_options(const CLI::App& command, const BakeParams& params) {
     throw CLI::ValidationError("--bounces", "only with --transfer interreflected");
 }
 
+std::string describe_storage(const BakeInfo& info) {
+  return info.pca ? fmt::format("{} clusters of {} components", info.pca->clusters, info.pca->components)
+                  : fmt::format("{} bits", info.bits);
+}
+
 Transfer bake_aloud(const std::string& model, const Scene& scene, const BakeParams& params) {
   const Progress bar = progress_bar("baking");
   const Transfer transfer =

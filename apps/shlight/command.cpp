@@ -118,8 +118,9 @@ void watch_for_stop() {
   ask.sa_handler = [](int signal) { stop_signal = signal; };
   ask.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &ask, nullptr);
-  // Writing to a closed pipe is an error like any other.
+  // Writing to a closed pipe is an error like any other, and so is writing more than a limit allows.
   ::signal(SIGPIPE, SIG_IGN);
+  ::signal(SIGXFSZ, SIG_IGN);
 }
 
 Progress progress_bar(std::string what) {

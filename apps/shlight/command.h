@@ -11,6 +11,7 @@
 #include "shlight/light/light.h"
 #include "shlight/sh/rotation.h"
 #include "shlight/sh/sphere_samples.h"
+#include "shlight/transfer/baked_file.h"
 #include "shlight/transfer/transfer.h"
 
 namespace shlight::app {
@@ -65,6 +66,9 @@ nlohmann::ordered_json json_of_sun(const Sun& sun, Rgb all);
 void add_bake_options(CLI::App& command, BakeParams& params);
 void check_bake_options(const CLI::App& command, const BakeParams& params);
 const char* transfer_kind_name(TransferKind kind);
+
+// "16 bits", "64 clusters of 7 components".
+std::string describe_storage(const BakeInfo& info);
 
 // Bakes with a bar, and says on stderr what it took.
 Transfer bake_aloud(const std::string& model, const Scene& scene, const BakeParams& params);

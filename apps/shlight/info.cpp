@@ -20,6 +20,7 @@ using nlohmann::ordered_json;
 struct InfoArguments {
   std::string file;
   LoadLightParams load;
+  std::string model;  // --fits
   bool json = false;
 };
 
@@ -105,9 +106,12 @@ ordered_json info_of(const Baked& baked) {
   json["bands"] = transfer.bands;
   json["channels"] = transfer.channels;
   json["bits"] = info.bits;
-  json["bytes_per_vertex"] = baked_bytes_per_vertex(transfer.bands, transfer.channels, info.bits);
+  if (info.pca) {
+    json["clusters"] = info.pca->clusters;
+    json["components"] = info.pca->components;
+  }
+  json["bytes_per_vertex"] = baked_bytes_per_vertex(transfer, info);
   json["rays"] = transfer.rays;
-  json["seconds"] = transfer.seconds;
   json["hash"] = fmt::format("{:016x}", transfer.hash);
   json["settings"] = {{"method", to_text(info.params.method)},
                       {"samples", info.params.samples},
@@ -117,8 +121,22 @@ ordered_json info_of(const Baked& baked) {
   return json;
 }
 
-ordered_json info_of_scene(const std::string& file) {
-  if (is_baked_file(file)) return info_of(load_baked(file));
+// Whether the file is what baking `model` with its settings would give now.
+bool fits(const std::string& file, const Baked& baked, const std::string& model) {
+  const bool fits = still_fits(baked.transfer, make_scene(model), baked.info.params);
+  if (!fits) spdlog::warn("{}: no longer fits {}: bake it again", file, model);
+  return fits;
+}
+
+ordered_json info_of_scene(const InfoArguments& arguments) {
+  const std::string& file = arguments.file;
+  if (is_baked_file(file)) {
+    const Baked baked = load_baked(file);
+    ordered_json json = info_of(baked);
+    if (!arguments.model.empty()) json["fits"] = fits(file, baked, arguments.model);
+    return json;
+  }
+  if (!arguments.model.empty()) throw Error(file, "is no baked file", "with --fits, a .glb of shlight bake");
   return info_of(make_scene(file));
 }
 
@@ -126,15 +144,15 @@ ordered_json info_of_scene(const std::string& file) {
 ordered_json info_of_file(const InfoArguments& arguments) {
   const std::string& file = arguments.file;
   const bool builtin = file.starts_with("builtin:");
-  if (builtin && is_builtin_scene(file)) return info_of_scene(file);
+  if (builtin && is_builtin_scene(file)) return info_of_scene(arguments);
   if (builtin || file.starts_with("fn:") || file.ends_with(".json")) return info_of(load_light(file, arguments.load));
-  if (is_model_file(file)) return info_of_scene(file);
+  if (is_model_file(file)) return info_of_scene(arguments);
   try {
     return info_of(load_light(file, arguments.load));
   } catch (const Error& light_error) {
     if (arguments.load.layout || !std::filesystem::is_regular_file(file)) throw;
     try {
-      return info_of_scene(file);
+      return info_of_scene(arguments);
     } catch (const Error&) {
       throw light_error;
     }
@@ -173,8 +191,10 @@ void add_info(CLI::App& program, Run& run) {
   const auto arguments = std::make_shared<InfoArguments>();
   command->add_option("FILE", arguments->file, "Any light or model that the other commands take")->required();
   add_light_options(*command, arguments->load);
+  command->add_option("--fits", arguments->model, "Tell whether a baked file is what baking this would give now")
+      ->type_name("MODEL");
   command->add_flag("--json", arguments->json, "Print it as JSON on stdout");
-  command->footer("Example:\n  shlight info venice.hdr");
+  command->footer("Example:\n  shlight info venice.hdr\n  shlight info statue.glb --fits statue.obj");
   command->callback([arguments, &run] { run = [arguments] { run_info(*arguments); }; });
 }
 

@@ -125,4 +125,13 @@ RenderResult render_transfer(const Scene& scene, const Transfer& transfer, const
                 [&](const RgbCoefficients& radiance) { return TransferRenderer(transfer, radiance); });
 }
 
+RenderResult render_baked(const Baked& baked, const RenderLight& light, const RenderParams& params,
+                          const Progress& progress) {
+  const BakeInfo& info = baked.info;
+  SHLIGHT_ASSERT_EQ(baked.transfer.num_vertices(), num_vertices(baked.scene));
+  return render(baked.scene, light, params, progress, [&](const RgbCoefficients& radiance) {
+    return info.pca ? TransferRenderer(*info.pca, radiance) : TransferRenderer(baked.transfer, radiance, info.bits);
+  });
+}
+
 }  // namespace shlight

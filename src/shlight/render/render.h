@@ -12,14 +12,17 @@
 #include "shlight/scene/scene.h"
 #include "shlight/sh/coefficients.h"
 #include "shlight/sh/rotation.h"
+#include "shlight/transfer/baked_file.h"
 #include "shlight/transfer/transfer.h"
 
 namespace shlight {
 
+inline constexpr int kMaxRenderBands = 10;
+
 struct RenderParams {
   int width = 1280;
   int height = 720;
-  int bands = 3;  // used of the light, which may have more, and of transfer; 1 to 10
+  int bands = 3;  // used of the light, which may have more, and of transfer; 1 to kMaxRenderBands
   Camera camera;
   Rotation rotate_light;  // of the light, before it falls on the scene
   double exposure = 0;    // stops, on top of auto_exposure() of the light
@@ -59,5 +62,9 @@ RenderResult render_reflectance(const Scene& scene, std::span<const SurfaceRefle
 // The same by the transfer method: `transfer` is the scene's, as bake_transfer makes it.
 RenderResult render_transfer(const Scene& scene, const Transfer& transfer, const RenderLight& light,
                              const RenderParams& params, const Progress& progress = {});
+
+// The same of a baked file, with its transfer as it is stored: what was compressed is drawn compressed.
+RenderResult render_baked(const Baked& baked, const RenderLight& light, const RenderParams& params,
+                          const Progress& progress = {});
 
 }  // namespace shlight

@@ -5,16 +5,22 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "shaders.h"
 #include "shlight/core/assert.h"
 #include "shlight/core/error.h"
+#include "shlight/transfer/quantise.h"
 
 namespace shlight {
 namespace {
 
-// Vertices a row of the texture: the largest width that every OpenGL ES 3.0 has.
+// Vertices a row of the textures, as in transfer.vert: the largest width that every OpenGL ES 3.0 has.
 constexpr int kRow = 2048;
 
 constexpr int num_layers(int bands) {
@@ -23,70 +29,184 @@ constexpr int num_layers(int bands) {
 
 // Layers lie behind each other so that vertices drawn after each other read memory side by side. 16 bands of three
 // channels are 192 of the 256 layers, and the light's coefficients 192 of the 256 uniform vectors, that every OpenGL
-// ES 3.0 has; u_light of transfer.vert has as many.
+// ES 3.0 has; u_light of transfer_sum.vert has as many.
 static_assert(num_layers(kMaxTransferBands) == 64);
 
-// What transfer.vert reads: the first `bands` bands of all vertices, a layer for every four coefficients of a channel.
-gl::Texture upload_transfer(const Transfer& transfer, int bands) {
-  const std::size_t vertices = transfer.num_vertices();
+// Four numbers of a vertex's code in each: its cluster and its weights.
+int num_code_layers(const ClusteredPca& pca) {
+  return (pca.components + 4) / 4;
+}
+
+// How OpenGL takes four of them.
+struct PixelFormat {
+  GLenum internal, format, type;
+};
+template <class Number>
+constexpr PixelFormat kPixelFormat = {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+template <>
+constexpr PixelFormat kPixelFormat<std::int16_t> = {GL_RGBA16I, GL_RGBA_INTEGER, GL_SHORT};
+template <>
+constexpr PixelFormat kPixelFormat<std::int8_t> = {GL_RGBA8I, GL_RGBA_INTEGER, GL_BYTE};
+
+void set_nearest(GLenum target) {
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+// A pixel of a layer belongs to a vertex, row by row: fill_pixel(layer, vertex, pixel) writes its four numbers, which
+// were zeros.
+template <class Number, class FillPixel>
+gl::Texture upload_layers(std::size_t vertices, int layers, const FillPixel& fill_pixel) {
+  constexpr PixelFormat kFormat = kPixelFormat<Number>;
   const auto rows = static_cast<int>(std::max<std::size_t>((vertices + kRow - 1) / kRow, 1));
   const int max_rows = gl::get_integer(GL_MAX_TEXTURE_SIZE);
   if (rows > max_rows)
     throw Error("OpenGL", fmt::format("transfer of {} vertices cannot be drawn", vertices),
                 fmt::format("at most {}", static_cast<std::size_t>(max_rows) * kRow));
-  const int layers = num_layers(bands);
   gl::Texture texture = gl::make_texture();
   glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id());
-  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA32F, kRow, rows, transfer.channels * layers);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-
-  const auto stride = static_cast<std::size_t>(num_coefficients(transfer.bands));
-  const auto used = static_cast<std::size_t>(num_coefficients(bands));
-  std::vector<float> values(4 * static_cast<std::size_t>(kRow) * static_cast<std::size_t>(rows));
-  for (int channel = 0; channel < transfer.channels; ++channel)
-    for (int layer = 0; layer < layers; ++layer) {
-      const std::size_t first = 4 * static_cast<std::size_t>(layer), count = std::min<std::size_t>(4, used - first);
-      std::ranges::fill(values, 0.0f);
-      for (std::size_t v = 0; v < vertices; ++v) {
-        const std::size_t vector = v * static_cast<std::size_t>(transfer.channels) + static_cast<std::size_t>(channel);
-        std::copy_n(transfer.coefficients.data() + vector * stride + first, count, values.data() + 4 * v);
-      }
-      glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, channel * layers + layer, kRow, rows, 1, GL_RGBA, GL_FLOAT,
-                      values.data());
-    }
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, kFormat.internal, kRow, rows, layers);
+  set_nearest(GL_TEXTURE_2D_ARRAY);
+  std::vector<Number> values(4 * static_cast<std::size_t>(kRow) * static_cast<std::size_t>(rows));
+  for (int layer = 0; layer < layers; ++layer) {
+    std::ranges::fill(values, Number{0});
+    for (std::size_t v = 0; v < vertices; ++v) fill_pixel(static_cast<std::size_t>(layer), v, &values[4 * v]);
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, kRow, rows, 1, kFormat.format, kFormat.type, values.data());
+  }
   gl::check_errors("the transfer's texture");
   return texture;
 }
 
-// u_light of transfer.vert.
-std::vector<gl::Mat3x4f> light_matrices(const RgbCoefficients& radiance) {
+// The first `bands` bands of all vertices, a layer for every four coefficients of a channel; `encode` makes the Number
+// of coefficient i of the row of all channels.
+template <class Number, class Encode>
+gl::Texture upload_transfer(const Transfer& transfer, int bands, const Encode& encode) {
+  const auto stride = static_cast<std::size_t>(num_coefficients(transfer.bands));
+  const auto used = static_cast<std::size_t>(num_coefficients(bands));
+  const auto channels = static_cast<std::size_t>(transfer.channels),
+             layers = static_cast<std::size_t>(num_layers(bands));
+  return upload_layers<Number>(transfer.num_vertices(), transfer.channels * num_layers(bands),
+                               [&](std::size_t layer, std::size_t v, Number* pixel) {
+                                 const std::size_t first = 4 * (layer % layers), at = layer / layers * stride + first;
+                                 for (std::size_t i = 0; i < std::min<std::size_t>(4, used - first); ++i)
+                                   pixel[i] = encode(transfer.coefficients[v * channels * stride + at + i], at + i);
+                               });
+}
+
+gl::Texture upload_transfer(const Transfer& transfer, int bands, int bits, std::span<const float> scales) {
+  const auto number = [&](float a, std::size_t i) { return quantise(a, scales[i], bits); };
+  if (bits == 8)
+    return upload_transfer<std::int8_t>(transfer, bands,
+                                        [&](float a, std::size_t i) { return static_cast<std::int8_t>(number(a, i)); });
+  if (bits == 16)
+    return upload_transfer<std::int16_t>(
+        transfer, bands, [&](float a, std::size_t i) { return static_cast<std::int16_t>(number(a, i)); });
+  return upload_transfer<float>(transfer, bands, [](float a, std::size_t) { return a; });
+}
+
+// What a number 1 in the texture stands for, for each coefficient and channel.
+RgbCoefficients number_scales(const Transfer& transfer, int bands, int bits, std::span<const float> scales) {
+  const auto n = static_cast<std::size_t>(num_coefficients(transfer.bands));
+  RgbCoefficients result(bands);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (bits == 32) {
+      result[i] = {1, 1, 1};
+      continue;
+    }
+    const auto scale = [&](int channel) {
+      return double{
+          dequantise(1, scales[static_cast<std::size_t>(std::min(channel, transfer.channels - 1)) * n + i], bits)};
+    };
+    result[i] = {scale(0), scale(1), scale(2)};
+  }
+  return result;
+}
+
+gl::Texture upload_codes(const ClusteredPca& pca) {
+  const std::size_t n = pca.rows_per_cluster();
+  return upload_layers<std::int16_t>(
+      pca.num_vertices(), num_code_layers(pca), [&](std::size_t layer, std::size_t v, std::int16_t* pixel) {
+        std::copy_n(&pca.codes[v * n + 4 * layer], std::min<std::size_t>(4, n - 4 * layer), pixel);
+      });
+}
+
+gl::Texture make_rows(const ClusteredPca& pca) {
+  gl::Texture texture = gl::make_texture();
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32F, 4 * num_code_layers(pca), pca.clusters);
+  set_nearest(GL_TEXTURE_2D);
+  gl::check_errors("the texture of clusters");
+  return texture;
+}
+
+// u_rows of transfer_pca.vert, into the texture now bound.
+void fill_rows(const ClusteredPca& pca, const RgbCoefficients& light) {
+  const std::vector<Rgb> radiance = light_pca(pca, light);
+  const std::size_t n = pca.rows_per_cluster(), width = 4 * static_cast<std::size_t>(num_code_layers(pca));
+  std::vector<float> pixels(4 * width * static_cast<std::size_t>(pca.clusters));
+  for (std::size_t k = 0; k < radiance.size(); ++k) {
+    float* pixel = &pixels[4 * (k / n * width + k % n)];
+    pixel[0] = static_cast<float>(radiance[k].r);
+    pixel[1] = static_cast<float>(radiance[k].g);
+    pixel[2] = static_cast<float>(radiance[k].b);
+  }
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, static_cast<GLsizei>(width), pca.clusters, GL_RGBA, GL_FLOAT, pixels.data());
+}
+
+// u_light of transfer_sum.vert.
+std::vector<gl::Mat3x4f> light_matrices(const RgbCoefficients& radiance, const RgbCoefficients& scales) {
   std::vector<gl::Mat3x4f> matrices(static_cast<std::size_t>(num_layers(radiance.bands())), gl::Mat3x4f{});
   for (std::size_t i = 0; i < radiance.size(); ++i) {
     gl::Mat3x4f& matrix = matrices[i / 4];
-    matrix[i % 4] = static_cast<float>(radiance[i].r);
-    matrix[4 + i % 4] = static_cast<float>(radiance[i].g);
-    matrix[8 + i % 4] = static_cast<float>(radiance[i].b);
+    matrix[i % 4] = static_cast<float>(radiance[i].r * scales[i].r);
+    matrix[4 + i % 4] = static_cast<float>(radiance[i].g * scales[i].g);
+    matrix[8 + i % 4] = static_cast<float>(radiance[i].b * scales[i].b);
   }
   return matrices;
 }
 
+std::string joined(std::initializer_list<std::string_view> sources) {
+  std::string text;
+  for (const std::string_view source : sources) text += source;
+  return text;
+}
+
 }  // namespace
 
-TransferRenderer::TransferRenderer(const Transfer& transfer, const RgbCoefficients& radiance)
+TransferRenderer::TransferRenderer(const Transfer& transfer, const RgbCoefficients& radiance, int bits)
     : num_vertices_(transfer.num_vertices()),
       radiance_(resize_bands(radiance, std::min(radiance.bands(), transfer.bands))),
-      program_(shaders::transfer_vert, shaders::surface_frag, shaders::transfer_frag) {
+      program_(joined({shaders::transfer_vert, shaders::transfer_sum_vert,
+                       bits == 32 ? shaders::transfer_floats_vert : shaders::transfer_numbers_vert}),
+               shaders::surface_frag, shaders::transfer_frag) {
   SHLIGHT_ASSERT_LE(1, radiance_.bands());
   SHLIGHT_ASSERT_LE(radiance_.bands(), kMaxTransferBands);
   SHLIGHT_ASSERT_EQ(transfer.channels == 1 || transfer.channels == 3, true);
+  SHLIGHT_ASSERT_EQ(is_transfer_bits(bits), true);
   SHLIGHT_ASSERT_EQ(transfer.coefficients.size(), num_vertices_ * static_cast<std::size_t>(transfer.channels) *
                                                       static_cast<std::size_t>(num_coefficients(transfer.bands)));
-  transfer_ = upload_transfer(transfer, radiance_.bands());
+  const std::vector<float> scales = bits == 32 ? std::vector<float>() : quantisation_scales(transfer);
+  transfer_ = upload_transfer(transfer, radiance_.bands(), bits, scales);
+  scales_ = number_scales(transfer, radiance_.bands(), bits, scales);
   program_.use();
   program_.set("u_transfer", 1);
   program_.set("u_colored", transfer.channels == 3 ? 1 : 0);
   program_.set("u_layers", num_layers(radiance_.bands()));
+}
+
+TransferRenderer::TransferRenderer(const ClusteredPca& pca, const RgbCoefficients& radiance)
+    : num_vertices_(pca.num_vertices()),
+      radiance_(radiance),
+      pca_(ClusteredPca{pca.bands, pca.channels, pca.clusters, pca.components, pca.table, {}}),
+      program_(joined({shaders::transfer_vert, shaders::transfer_pca_vert}), shaders::surface_frag,
+               shaders::transfer_frag),
+      transfer_(upload_codes(pca)),
+      rows_(make_rows(pca)) {
+  SHLIGHT_ASSERT_LE(pca.clusters, kMaxPcaClusters);
+  program_.use();
+  program_.set("u_transfer", 1);
+  program_.set("u_rows", 2);
+  program_.set("u_layers", num_code_layers(pca));
 }
 
 void TransferRenderer::mark_negative(Vec3f radiance) {
@@ -97,7 +217,14 @@ void TransferRenderer::mark_negative(Vec3f radiance) {
 void TransferRenderer::draw(const GpuScene& scene, const View& view, const Rotation& light_to_world) const {
   SHLIGHT_ASSERT_EQ(scene.num_vertices(), num_vertices_);
   program_.use();
-  program_.set("u_light", light_matrices(rotate(light_to_world, radiance_)));
+  const RgbCoefficients radiance = rotate(light_to_world, radiance_);
+  if (pca_) {
+    glActiveTexture(GL_TEXTURE2);
+    glBindTexture(GL_TEXTURE_2D, rows_.id());
+    fill_rows(*pca_, radiance);
+  } else {
+    program_.set("u_light", light_matrices(radiance, scales_));
+  }
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D_ARRAY, transfer_.id());
   scene.draw(program_, view, light_to_world);

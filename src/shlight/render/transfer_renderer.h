@@ -1,10 +1,13 @@
 #pragma once
 
+#include <optional>
+
 #include "shlight/render/camera.h"
 #include "shlight/render/gl.h"
 #include "shlight/render/gpu_scene.h"
 #include "shlight/sh/coefficients.h"
 #include "shlight/sh/rotation.h"
+#include "shlight/transfer/clustered_pca.h"
 #include "shlight/transfer/transfer.h"
 
 namespace shlight {
@@ -13,15 +16,22 @@ namespace shlight {
 // between them, with the A_i of each vertex baked before (transfer/transfer.h). A triangle looks the same from both
 // sides. Needs a current context.
 //
-// Coefficients are kept as 32-bit floats: 16 bytes for every four of them, a channel and a vertex.
+// Transfer is kept as it is given: coefficients as floats, or in 16 or 8 bits, 4 or 2 or 1 bytes each, bands² rounded
+// up to a multiple of 4 for each channel; or as clustered principal components, 2 bytes for the cluster and for each
+// weight. Nothing is decoded before it is drawn: scales of numbers are multiplied into the light, and light is summed
+// with each cluster's mean and components once for all vertices [2], so that drawing costs the same for any number of
+// bands.
 //
 // [1] Sloan, Kautz, Snyder 2002, Precomputed Radiance Transfer for Real-Time Rendering in Dynamic, Low-Frequency
 //     Lighting Environments, SIGGRAPH.
+// [2] Sloan, Hall, Hart, Snyder 2003, Clustered Principal Components for Precomputed Radiance Transfer, SIGGRAPH.
 class TransferRenderer {
  public:
-  // Uses as many bands as both have. Throws Error where there are more vertices than the card's textures hold: 4
-  // million on the least one of OpenGL ES 3.0, 33 million on most; or where memory runs out.
-  TransferRenderer(const Transfer& transfer, const RgbCoefficients& radiance);
+  // Uses as many bands as both have, in so many bits: 32, 16 or 8 (transfer/quantise.h). Throws Error where there are
+  // more vertices than the card's textures hold: 4 million on the least one of OpenGL ES 3.0, 33 million on most; or
+  // where memory runs out.
+  TransferRenderer(const Transfer& transfer, const RgbCoefficients& radiance, int bits = 32);
+  TransferRenderer(const ClusteredPca& pca, const RgbCoefficients& radiance);
 
   // From now on, paints stripes of this radiance where a channel of Σ L_i A_i is negative; black: no more.
   void mark_negative(Vec3f radiance);
@@ -33,8 +43,10 @@ class TransferRenderer {
  private:
   std::size_t num_vertices_;
   RgbCoefficients radiance_;
+  RgbCoefficients scales_;           // of what is in the texture: L is multiplied with them
+  std::optional<ClusteredPca> pca_;  // without its codes, which are in the texture
   gl::Program program_;
-  gl::Texture transfer_;
+  gl::Texture transfer_, rows_;
 };
 
 }  // namespace shlight

@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "shlight/render/matrices.h"
@@ -16,6 +17,8 @@
 #include "shlight/render/sh_glsl.h"
 #include "shlight/render/targets.h"
 #include "shlight/sh/rotation.h"
+#include "shlight/transfer/clustered_pca.h"
+#include "shlight/transfer/quantise.h"
 
 namespace shlight {
 namespace {
@@ -289,6 +292,44 @@ TEST_F(TransferRendererTest, TurningTheLightIsTurningItsCoefficients) {
     EXPECT_LT(max_difference(turned, expected), kHalfPrecision);
     expect_same_sphere(turned, render_irradiance(sphere_, {light, {}}, params).radiance, {});
     EXPECT_GT(max_difference(still, expected), 0.1) << "the turn is seen";
+  }
+}
+
+// What was compressed is drawn as it decodes on the processor, up to half floats' rounding: in 16 and 8 bits, and as
+// clustered principal components, mono and coloured, with fewer bands than there are and with other bands of light.
+TEST_F(TransferRendererTest, CompressedIsDrawnAsItDecodes) {
+  constexpr int kBands = 5;
+  for (const int channels : {1, 3}) {
+    // Smooth enough for clusters, with a constant so that nothing is negative and cut off.
+    const Transfer transfer = make_test_transfer(sphere_, kBands, channels, [](std::size_t v, int c, int i) {
+      return i == 0 ? 2 + c : 0.2 * std::sin(0.01 * static_cast<double>(v) * (1 + i % 3) + c + i);
+    });
+    BakeInfo info;
+    const auto expect_decoded = [&](const std::vector<float>& coefficients, const std::string& what) {
+      Transfer decoded = transfer;
+      decoded.coefficients = coefficients;
+      EXPECT_NE(decoded.coefficients, transfer.coefficients) << what;
+      for (const int bands : {2, 8}) {
+        RgbCoefficients light = random_light(bands);
+        light[0] = {3, 3, 3};
+        RenderParams params = test_params(bands);
+        params.rotate_light = rotation_zyz(0.4, 2, -1);
+        const Image expected = draw(sphere_, decoded, light, params);
+        const Image drawn = render_baked({sphere_, decoded, info}, {light, {}}, params).radiance;
+        const double largest = static_cast<double>(*std::ranges::max_element(expected.values));
+        EXPECT_GT(largest, 1) << what;
+        EXPECT_LT(max_difference(drawn, expected), kHalfPrecision * largest) << what << " " << channels << " " << bands;
+      }
+    };
+    for (const int bits : {16, 8}) {
+      info.bits = bits;
+      expect_decoded(quantise_transfer(transfer, bits).coefficients, std::to_string(bits));
+    }
+    info.bits = 16;
+    for (const int components : {3, 4}) {
+      info.pca = compress_pca(transfer, {.clusters = 12, .components = components});
+      expect_decoded(pca_coefficients(*info.pca), "pca");
+    }
   }
 }
 

@@ -32,9 +32,9 @@ struct MetallicRoughness {
 // rest.
 struct Material {
   std::string name;
-  Vec3f base_color = {0.8f, 0.8f, 0.8f};   // linear Rec. 709 in [0, 1]
-  std::optional<std::uint32_t> texture;    // into Scene::textures; multiplies base_color where texcoords are
-  std::optional<MetallicRoughness> gloss;  // none: a Lambertian surface
+  Vec3f base_color = {0.8f, 0.8f, 0.8f};        // linear Rec. 709 in [0, 1]
+  std::optional<std::uint32_t> texture;         // into Scene::textures; multiplies base_color where texcoords are
+  std::optional<MetallicRoughness> gloss = {};  // none: a Lambertian surface
 };
 
 // Triangles of one material. All of a loaded mesh's values are finite and every index is below positions.size();

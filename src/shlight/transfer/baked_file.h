@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shlight/scene/scene.h"
+#include "shlight/transfer/clustered_pca.h"
 #include "shlight/transfer/transfer.h"
 
 // Baked files: a scene and its transfer as one binary glTF file, which every viewer of such files shows as a model and
@@ -21,6 +22,7 @@ struct BakeInfo {
   BakeParams params;  // what it was baked with; threads, tracer and checkpoint are not kept
   std::string model;  // what was baked, in words for people
   int bits = 32;      // of each coefficient in the file: 32 for floats as they are, 16 or 8 (quantise.h)
+  std::optional<ClusteredPca> pca = {};  // what the file holds in the place of coefficients; then bits is 16
 };
 
 struct Baked {
@@ -30,8 +32,9 @@ struct Baked {
 };
 
 // Writes a baked file whole or not at all. `transfer` is bake_transfer's of `scene`. Every float comes back with the
-// bits it had, but for coefficients of fewer than 32 bits: those as quantise_transfer has them. Throws Error, also
-// where a mesh is shown that has no triangle, or where the file would be larger than 4 GiB.
+// bits it had, but for coefficients of fewer than 32 bits, which come back as quantise_transfer has them, or as
+// pca_coefficients of info.pca, which is compress_pca's of `transfer`. Seconds are not kept: the same bake is the same
+// file. Throws Error, also where a mesh is shown that has no triangle, or where the file would be larger than 4 GiB.
 void save_baked(const std::filesystem::path& path, const Scene& scene, const Transfer& transfer, const BakeInfo& info);
 
 // The bytes of that file. `name` is used in errors.
@@ -39,8 +42,8 @@ std::vector<std::byte> format_baked(const Scene& scene, const Transfer& transfer
                                     const std::string& name);
 
 // Reads a baked file, which may come from anybody: what comes back keeps all that scene.h and transfer.h promise, and
-// takes no more than a few times the file's memory. Throws Error where the file was cut short or changed by anything
-// but save_baked, or is of another version.
+// takes no more than a few times the memory of file and coefficients. Throws Error where the file was cut short or
+// changed by anything but save_baked, or is of another version.
 Baked load_baked(const std::filesystem::path& path);
 Baked load_baked(std::span<const std::byte> bytes, const std::string& name);
 
@@ -53,11 +56,17 @@ inline bool still_fits(const Transfer& transfer, const Scene& scene, const BakeP
 }
 
 // What a baked file holds for each vertex beside its mesh: transfer, ambient occlusion, bent normal.
+// With clustered PCA that is of `components`, and the table of all clusters has pca_table_bytes beside it.
 std::size_t baked_bytes_per_vertex(int bands, int channels, int bits = 32);
+std::size_t baked_pca_bytes_per_vertex(int components);
+std::size_t pca_table_bytes(int bands, int channels, int clusters, int components);
+// With each vertex's share of the table.
+double baked_bytes_per_vertex(const Transfer& transfer, const BakeInfo& info);
 
 // Throws the Error that save_baked would, as far as can be told before baking: the folder is not there, or not
-// writable, or the file would be larger than 4 GiB.
-void check_savable(const std::filesystem::path& path, const Scene& scene, const BakeInfo& info);
+// writable, or the file would be larger than 4 GiB. `pca` is what info.pca is going to be made with.
+void check_savable(const std::filesystem::path& path, const Scene& scene, const BakeInfo& info,
+                   const std::optional<PcaParams>& pca = {});
 
 // "cosine", "shadowed", "interreflected"; nothing where there is no such kind.
 std::string_view to_text(TransferKind kind);

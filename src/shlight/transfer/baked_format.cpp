@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <utility>
@@ -57,6 +58,14 @@ int num_transfer_attributes(int bands) {
   return (num_coefficients(bands) + 3) / 4;
 }
 
+std::string pca_attribute(int k) {
+  return fmt::format("_SH_PCA_{}", k);
+}
+
+int num_pca_attributes(int components) {
+  return (components + 4) / 4;
+}
+
 nlohmann::ordered_json baked_convention() {
   return {{"basis", "real, orthonormal"},
           {"condon_shortley_phase", false},
@@ -71,26 +80,53 @@ nlohmann::ordered_json baked_convention() {
           {"color", "linear Rec. 709"}};
 }
 
+namespace {
+
+// Ambient occlusion and bent normal.
+constexpr std::size_t kOtherBytes = sizeof(float) + sizeof(Vec3f);
+
+}  // namespace
+
 std::size_t baked_bytes_per_vertex(int bands, int channels, int bits) {
   const auto coefficients = static_cast<std::size_t>(4 * channels * num_transfer_attributes(bands));
-  return coefficients * static_cast<std::size_t>(bits) / 8 + sizeof(float) + sizeof(Vec3f);
+  return coefficients * static_cast<std::size_t>(bits) / 8 + kOtherBytes;
 }
 
-std::uint64_t estimate_baked_bytes(const Scene& scene, int bands, int channels, int bits) {
+std::size_t baked_pca_bytes_per_vertex(int components) {
+  return 4 * sizeof(std::int16_t) * static_cast<std::size_t>(num_pca_attributes(components)) + kOtherBytes;
+}
+
+std::size_t pca_table_bytes(int bands, int channels, int clusters, int components) {
+  return sizeof(float) * static_cast<std::size_t>(clusters) * static_cast<std::size_t>(components + 1) *
+         static_cast<std::size_t>(channels * num_coefficients(bands));
+}
+
+double baked_bytes_per_vertex(const Transfer& transfer, const BakeInfo& info) {
+  if (!info.pca) return static_cast<double>(baked_bytes_per_vertex(transfer.bands, transfer.channels, info.bits));
+  const auto vertices = static_cast<double>(std::max<std::size_t>(1, transfer.num_vertices()));
+  return static_cast<double>(baked_pca_bytes_per_vertex(info.pca->components)) +
+         static_cast<double>(sizeof(float) * info.pca->table.size()) / vertices;
+}
+
+std::uint64_t estimate_baked_bytes(const Scene& scene, int bands, int channels, int bits,
+                                   const std::optional<PcaParams>& pca) {
   constexpr std::uint64_t kJsonBytes = 1 << 12, kAccessorBytes = 200;
   const auto accessors = static_cast<std::uint64_t>(channels * num_transfer_attributes(bands) + 8);
   std::uint64_t bytes = kJsonBytes + scene.instances.size() * accessors * kAccessorBytes;
-  bytes += num_vertices(scene) * baked_bytes_per_vertex(bands, channels, bits);
+  bytes += num_vertices(scene) *
+           (pca ? baked_pca_bytes_per_vertex(pca->components) : baked_bytes_per_vertex(bands, channels, bits));
+  if (pca) bytes += pca_table_bytes(bands, channels, num_pca_clusters(*pca, num_vertices(scene)), pca->components);
   for (const Mesh& mesh : scene.meshes)
     bytes += sizeof(Vec3f) * (mesh.positions.size() + mesh.normals.size() + mesh.colors.size()) +
              sizeof(Vec2f) * mesh.texcoords.size() + sizeof(std::uint32_t) * mesh.indices.size();
   return bytes;
 }
 
-void check_savable(const std::filesystem::path& path, const Scene& scene, const BakeInfo& info) {
+void check_savable(const std::filesystem::path& path, const Scene& scene, const BakeInfo& info,
+                   const std::optional<PcaParams>& pca) {
   check_writable(path);
   const int channels = info.params.kind == TransferKind::kInterreflected ? 3 : 1;
-  const std::uint64_t bytes = estimate_baked_bytes(scene, info.params.bands, channels, info.bits);
+  const std::uint64_t bytes = estimate_baked_bytes(scene, info.params.bands, channels, info.bits, pca);
   if (bytes > kMaxGlbBytes)
     throw Error(path.string(), fmt::format("would hold about {} bytes", bytes),
                 fmt::format("at most {}: fewer bands, or parts of the scene in files of their own", kMaxGlbBytes));

@@ -25,8 +25,14 @@ std::string transfer_attribute(int channels, int channel, int k);
 // How many of them a channel has; the last is filled up with zeros.
 int num_transfer_attributes(int bands);
 
+// "_SH_PCA_2": numbers 4k … 4k+3 of a vertex's code, cluster and weights, and how many of them there are; the last is
+// filled up with zeros.
+std::string pca_attribute(int k);
+int num_pca_attributes(int components);
+
 // About how large a file becomes, its textures apart.
-std::uint64_t estimate_baked_bytes(const Scene& scene, int bands, int channels, int bits = 32);
+std::uint64_t estimate_baked_bytes(const Scene& scene, int bands, int channels, int bits = 32,
+                                   const std::optional<PcaParams>& pca = {});
 
 // The convention of light's coefficient files, but for the quantity.
 nlohmann::ordered_json baked_convention();

@@ -112,13 +112,13 @@ class Reader {
 
   // The values of an accessor, all finite where they are floats. T is what one of `type` lies in memory as.
   template <class T>
-  std::vector<T> take(const json& index_value, std::string_view type, int component_type = kGltfFloat) {
+  std::vector<T> take(const json& index_value, std::string_view type, int component_type = kGltfFloat,
+                      bool normalized = false) {
     const json& accessor = item(index_value, "accessors");
     if (text(accessor, "type") != type) fail(fmt::format("an accessor that is no {}", type));
     whole(accessor, "componentType", component_type, component_type);
     if (accessor.contains("sparse") || accessor.contains("byteOffset"))
       fail("an accessor that is sparse or has a byteOffset");
-    const bool normalized = component_type == kGltfByte || component_type == kGltfShort;
     if (accessor.contains("normalized") ? accessor["normalized"] != normalized : normalized)
       fail("an accessor that is normalized, or is not");
     const auto bytes = take_view(member(accessor, "bufferView"));
@@ -136,8 +136,8 @@ class Reader {
   }
   template <class T>
   std::vector<T> take_rows(const json& attributes, const char* key, std::string_view type, std::size_t vertices,
-                           int component_type = kGltfFloat) {
-    std::vector<T> values = take<T>(member(attributes, key), type, component_type);
+                           int component_type = kGltfFloat, bool normalized = false) {
+    std::vector<T> values = take<T>(member(attributes, key), type, component_type, normalized);
     if (values.size() != vertices) fail(fmt::format("{} {} for {} vertices", values.size(), key, vertices));
     return values;
   }
@@ -287,8 +287,8 @@ void read_coefficients(Reader& reader, const json& attributes, int component_typ
   for (std::size_t c = 0; c < channels; ++c)
     for (int k = 0; k < num_transfer_attributes(transfer.bands); ++k) {
       const std::string key = transfer_attribute(transfer.channels, static_cast<int>(c), k);
-      const auto row =
-          reader.take_rows<std::array<Number, 4>>(attributes, key.c_str(), "VEC4", vertices, component_type);
+      const auto row = reader.take_rows<std::array<Number, 4>>(attributes, key.c_str(), "VEC4", vertices,
+                                                               component_type, component_type != kGltfFloat);
       const auto from = 4 * static_cast<std::size_t>(k), size = std::min<std::size_t>(4, n - from);
       for (std::size_t v = 0; v < vertices; ++v)
         for (std::size_t i = 0; i < size; ++i)
@@ -296,8 +296,25 @@ void read_coefficients(Reader& reader, const json& attributes, int component_typ
     }
 }
 
-void read_transfer(Reader& reader, std::span<const Placed> placed, const Scene& scene, int bits,
-                   std::span<const float> scales, Transfer& transfer) {
+// The codes of one instance's vertices, and what they stand for.
+void read_codes(Reader& reader, const json& attributes, std::size_t vertices, ClusteredPca& pca) {
+  const std::size_t n = pca.rows_per_cluster(), first = pca.num_vertices();
+  reader.expect_left(vertices * 8 * static_cast<std::uint64_t>(num_pca_attributes(pca.components)));
+  pca.codes.resize((first + vertices) * n);
+  for (int k = 0; k < num_pca_attributes(pca.components); ++k) {
+    const auto row = reader.take_rows<std::array<std::int16_t, 4>>(attributes, pca_attribute(k).c_str(), "VEC4",
+                                                                   vertices, kGltfShort);
+    const auto from = 4 * static_cast<std::size_t>(k), size = std::min<std::size_t>(4, n - from);
+    for (std::size_t v = 0; v < vertices; ++v) std::copy_n(row[v].begin(), size, &pca.codes[(first + v) * n + from]);
+  }
+  for (std::size_t v = first; v < first + vertices; ++v)
+    if (const int cluster = pca.codes[v * n]; cluster < 0 || cluster >= pca.clusters)
+      reader.fail(fmt::format("a vertex of cluster {} of {}", cluster, pca.clusters));
+}
+
+void read_transfer(Reader& reader, std::span<const Placed> placed, const Scene& scene, std::span<const float> scales,
+                   BakeInfo& info, Transfer& transfer) {
+  const int bits = info.bits;
   const auto row = static_cast<std::size_t>(transfer.channels * num_coefficients(transfer.bands));
   const auto decode = [&](int number, std::size_t i) { return dequantise(number, scales[i], bits); };
   transfer.first_vertex.push_back(0);
@@ -309,6 +326,11 @@ void read_transfer(Reader& reader, std::span<const Placed> placed, const Scene& 
     const auto bent = reader.take_rows<Vec3f>(attributes, kBentNormalAttribute, "VEC3", vertices);
     transfer.ambient_occlusion.insert(transfer.ambient_occlusion.end(), occlusion.begin(), occlusion.end());
     transfer.bent_normals.insert(transfer.bent_normals.end(), bent.begin(), bent.end());
+    if (info.pca) {
+      read_codes(reader, attributes, vertices, *info.pca);
+      transfer.first_vertex.push_back(transfer.num_vertices());
+      continue;
+    }
     reader.expect_left(vertices * row * static_cast<std::uint64_t>(bits) / 8);
     transfer.coefficients.resize((first + vertices) * row);
     if (bits == 8)
@@ -320,6 +342,10 @@ void read_transfer(Reader& reader, std::span<const Placed> placed, const Scene& 
                                [](float a, std::size_t) { return a; });
     transfer.first_vertex.push_back(transfer.num_vertices());
   }
+  if (!info.pca) return;
+  transfer.coefficients = pca_coefficients(*info.pca);
+  for (const float a : transfer.coefficients)
+    if (!std::isfinite(a)) reader.fail("a coefficient that is not finite");
 }
 
 void read_extras(const Reader& reader, const json& extras, Baked& baked) {
@@ -334,7 +360,6 @@ void read_extras(const Reader& reader, const json& extras, Baked& baked) {
   if (!is_transfer_bits(info.bits)) reader.fail("bits are not 8, 16 or 32");
   transfer.hash = reader.hexadecimal(extras, "hash");
   transfer.rays = reader.whole(extras, "rays", 0, std::numeric_limits<std::uint64_t>::max());
-  transfer.seconds = reader.number(reader.member(extras, "seconds"), "seconds");
   if (reader.member(extras, "convention") != json(baked_convention())) reader.fail("its convention is another");
 
   const json& settings = reader.member(extras, "settings");
@@ -351,9 +376,25 @@ void read_extras(const Reader& reader, const json& extras, Baked& baked) {
   info.model = reader.text(extras, "model");
 }
 
+// Clusters and their table; nothing where the file has none. Codes are still to come.
+std::optional<ClusteredPca> read_pca(Reader& reader, const json& extras, const Baked& baked) {
+  if (!extras.contains("pca")) return {};
+  const json& sizes = extras["pca"];
+  if (baked.info.bits != 16) reader.fail("pca is not of 16 bits");
+  ClusteredPca pca;
+  pca.bands = baked.transfer.bands;
+  pca.channels = baked.transfer.channels;
+  pca.clusters = static_cast<int>(reader.whole(sizes, "clusters", 1, kMaxPcaClusters));
+  pca.components = static_cast<int>(reader.whole(sizes, "components", 1, kMaxPcaComponents));
+  pca.table = reader.take<float>(reader.member(sizes, "table"), "SCALAR");
+  if (pca.table.size() != static_cast<std::size_t>(pca.clusters) * pca.rows_per_cluster() * pca.row_size())
+    reader.fail(fmt::format("a table of {} values", pca.table.size()));
+  return pca;
+}
+
 // The scales of coefficients that are not floats, for each of each channel.
 std::vector<float> read_scales(const Reader& reader, const json& extras, const Baked& baked) {
-  if (baked.info.bits == 32) return {};
+  if (baked.info.bits == 32 || baked.info.pca) return {};
   const json& values = reader.member(extras, "scales");
   const auto count = static_cast<std::size_t>(baked.transfer.channels * num_coefficients(baked.transfer.bands));
   if (!values.is_array() || values.size() != count) reader.fail("scales are not one for each coefficient");
@@ -400,7 +441,8 @@ Baked load_baked(std::span<const std::byte> bytes, const std::string& name) {
   for (const json& node : nodes) placed.push_back(read_node(reader, reader.item(node, "nodes")));
   read_meshes(reader, placed, baked.scene);
   read_textures(reader, name, baked.scene);
-  read_transfer(reader, placed, baked.scene, baked.info.bits, read_scales(reader, extras, baked), baked.transfer);
+  baked.info.pca = read_pca(reader, extras, baked);
+  read_transfer(reader, placed, baked.scene, read_scales(reader, extras, baked), baked.info, baked.transfer);
   return baked;
 }
 

@@ -127,6 +127,22 @@ void add_transfer(Rows& rows, const Transfer& transfer, int bits, std::span<cons
                                [&](float a, float scale) { return static_cast<std::int16_t>(encode(a, scale)); });
   else
     add_transfer<float>(rows, transfer, scales, instance, kGltfFloat, attributes, [](float a, float) { return a; });
+}
+
+// Clusters and weights of an instance's vertices, as whole numbers.
+void add_pca_codes(Rows& rows, const Transfer& transfer, const ClusteredPca& pca, std::size_t instance,
+                   ordered_json& attributes) {
+  const std::size_t first = transfer.first_vertex[instance], n = pca.rows_per_cluster();
+  std::vector<std::array<std::int16_t, 4>> row(transfer.first_vertex[instance + 1] - first);
+  for (int k = 0; k < num_pca_attributes(pca.components); ++k) {
+    const auto from = 4 * static_cast<std::size_t>(k), size = std::min<std::size_t>(4, n - from);
+    std::ranges::fill(row, std::array<std::int16_t, 4>{});
+    for (std::size_t v = 0; v < row.size(); ++v) std::copy_n(&pca.codes[(first + v) * n + from], size, row[v].begin());
+    attributes[pca_attribute(k)] = rows.add(std::span(std::as_const(row)), "VEC4", kGltfShort);
+  }
+}
+
+void add_openness(Rows& rows, const Transfer& transfer, std::size_t instance, ordered_json& attributes) {
   const std::size_t first = transfer.first_vertex[instance];
   const std::size_t count = transfer.first_vertex[instance + 1] - first;
   attributes[kOcclusionAttribute] = rows.add(std::span(transfer.ambient_occlusion).subspan(first, count), "SCALAR");
@@ -189,7 +205,16 @@ std::size_t add_node(ordered_json& nodes, const Mat4f& to_world, std::size_t mes
   return nodes.size() - 1;
 }
 
-ordered_json json_of(const Transfer& transfer, const BakeInfo& info, const std::vector<float>& scales) {
+// What all vertices' numbers are decoded with.
+ordered_json add_decoding(Rows& rows, const Transfer& transfer, const BakeInfo& info) {
+  if (info.pca)
+    return {{"clusters", info.pca->clusters},
+            {"components", info.pca->components},
+            {"table", rows.add(std::span(info.pca->table), "SCALAR", kGltfFloat, 0)}};
+  return info.bits == 32 ? std::vector<float>() : quantisation_scales(transfer);
+}
+
+ordered_json json_of(const Transfer& transfer, const BakeInfo& info, const ordered_json& decoding) {
   const BakeParams& params = info.params;
   return {{"version", kBakedVersion},
           {"checksum", kEmptyChecksum},
@@ -197,10 +222,9 @@ ordered_json json_of(const Transfer& transfer, const BakeInfo& info, const std::
           {"bands", transfer.bands},
           {"channels", transfer.channels},
           {"bits", info.bits},
-          {"scales", info.bits == 32 ? std::vector<float>() : scales},
+          {info.pca ? "pca" : "scales", decoding},
           {"hash", fmt::format("{:016x}", transfer.hash)},
           {"rays", transfer.rays},
-          {"seconds", transfer.seconds},
           {"settings",
            {{"method", to_text(params.method)},
             {"samples", params.samples},
@@ -229,6 +253,11 @@ std::vector<std::byte> format_baked(const Scene& scene, const Transfer& transfer
                                     const std::string& name) {
   check_fits(scene, transfer);
   SHLIGHT_ASSERT_EQ(is_transfer_bits(info.bits), true);
+  if (info.pca) {
+    SHLIGHT_ASSERT_EQ(info.bits, 16);
+    SHLIGHT_ASSERT_EQ(info.pca->num_vertices(), transfer.num_vertices());
+    SHLIGHT_ASSERT_EQ(info.pca->row_size() * transfer.num_vertices(), transfer.coefficients.size());
+  }
   const std::vector<float> scales = quantisation_scales(transfer);
   if (scene.instances.empty()) throw Error(name, "would hold no instances", "a scene that shows something");
   Rows rows;
@@ -239,7 +268,11 @@ std::vector<std::byte> format_baked(const Scene& scene, const Transfer& transfer
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.meshes[instance.mesh];
     ordered_json attributes = shared[instance.mesh].attributes;
-    add_transfer(rows, transfer, info.bits, scales, i, attributes);
+    if (info.pca)
+      add_pca_codes(rows, transfer, *info.pca, i, attributes);
+    else
+      add_transfer(rows, transfer, info.bits, scales, i, attributes);
+    add_openness(rows, transfer, i, attributes);
     meshes.push_back({{"name", mesh.name},
                       {"primitives", list_of({{"attributes", attributes},
                                               {"indices", shared[instance.mesh].indices},
@@ -247,9 +280,10 @@ std::vector<std::byte> format_baked(const Scene& scene, const Transfer& transfer
     roots.push_back(add_node(nodes, instance.to_world, i));
   }
 
+  const ordered_json decoding = add_decoding(rows, transfer, info);
   ordered_json root = {
       {"asset",
-       {{"extras", {{"shlight", json_of(transfer, info, scales)}}}, {"generator", "shlight"}, {"version", "2.0"}}},
+       {{"extras", {{"shlight", json_of(transfer, info, decoding)}}}, {"generator", "shlight"}, {"version", "2.0"}}},
       {"scene", 0},
       {"scenes", list_of({{"nodes", roots}})},
       {"nodes", std::move(nodes)},
