@@ -12,7 +12,8 @@ class ToolHelp : public ToolTest {};
 TEST_F(ToolHelp, EveryCommandHasAnExample) {
   const ToolRun program = run({"--help"});
   EXPECT_EQ(program.err, "");
-  for (const std::string command : {"project", "project-brdf", "render", "bake", "info", "demo", "convert-map"}) {
+  for (const std::string command :
+       {"project", "project-brdf", "render", "bake", "info", "demo", "convert-map", "compare"}) {
     EXPECT_NE(program.out.find("\n  " + command + " "), std::string::npos) << program;
     const ToolRun help = run({command, "--help"});
     EXPECT_EQ(help.err, "");
