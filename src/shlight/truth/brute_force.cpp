@@ -1,0 +1,122 @@
+#include "shlight/truth/brute_force.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "shlight/core/parallel.h"
+#include "shlight/image/pixels.h"
+
+namespace shlight {
+namespace {
+
+constexpr int kGridWidth = 1024;
+constexpr std::array<int, 7> kNodesASide = {1, 2, 4, 8, 16, 32, 64};
+
+double largest(Rgb c) {
+  return std::max({std::abs(c.r), std::abs(c.g), std::abs(c.b)});
+}
+
+// The light and the cells in which it is integrated.
+class Cells {
+ public:
+  Cells(const Light& light, const std::function<Rgb(Vec3d)>& weight)
+      : light_(light), image_(dynamic_cast<const ImageLight*>(&light)), weight_(weight) {
+    layout_ = image_ ? image_->environment().layout : Layout::kLatLong;
+    size_ = image_ ? image_->environment().size() : picture_size(layout_, kGridWidth);
+    for (const int nodes : kNodesASide) rules_.emplace_back(layout_, size_, nodes);
+  }
+  PictureSize size() const { return size_; }
+  bool covers(Pixel cell) const { return rules_[0].covers(cell); }
+  double solid_angle(Pixel cell) const { return rules_[0].solid_angle(cell); }
+
+  // The integral over a cell by one of the rules, `nodes` being memory to use again.
+  Rgb integrate(Pixel cell, std::size_t rule, std::vector<WeightedDirection>& nodes) const {
+    const Rgb constant = image_ ? image_->environment().image.rgb(cell.x, cell.y) : Rgb{};
+    Rgb sum;
+    if (image_ && constant == Rgb{}) return sum;
+    rules_[rule].nodes(cell, nodes);
+    for (const WeightedDirection& node : nodes) {
+      const Rgb radiance = image_ ? constant : light_.radiance(node.direction);
+      const Rgb w = weight_(node.direction);
+      sum += node.solid_angle * Rgb{radiance.r * w.r, radiance.g * w.g, radiance.b * w.b};
+    }
+    return sum;
+  }
+
+ private:
+  const Light& light_;
+  const ImageLight* image_;
+  const std::function<Rgb(Vec3d)>& weight_;
+  Layout layout_;
+  PictureSize size_;
+  std::vector<PixelQuadrature> rules_;
+};
+
+// A cell's integral by the finest rule so far, and how far it is from the rule before.
+struct Estimate {
+  Rgb value;
+  double change = 0;
+};
+
+}  // namespace
+
+BruteForceResult integrate_light(const Light& light, const std::function<Rgb(Vec3d)>& weight,
+                                 const BruteForceParams& params) {
+  const Cells cells(light, weight);
+  const PictureSize size = cells.size();
+  const auto width = static_cast<std::size_t>(size.width), height = static_cast<std::size_t>(size.height);
+  std::vector<Estimate> estimates(width * height);
+  std::vector<double> magnitudes(height);
+  parallel_for(height, params.threads, [&](std::size_t y) {
+    std::vector<WeightedDirection> nodes;
+    for (std::size_t x = 0; x < width; ++x) {
+      const Pixel cell = {static_cast<int>(x), static_cast<int>(y)};
+      if (!cells.covers(cell)) continue;
+      const Rgb coarse = cells.integrate(cell, 0, nodes), fine = cells.integrate(cell, 1, nodes);
+      estimates[y * width + x] = {fine, largest(fine - coarse)};
+      magnitudes[y] += largest(fine);
+    }
+  });
+
+  // Each cell may be wrong in proportion to its solid angle.
+  double magnitude = 0;
+  for (const double of_row : magnitudes) magnitude += of_row;
+  const double allowed = params.tolerance * magnitude / (4 * std::numbers::pi);
+  std::vector<Estimate> rows(height);
+  parallel_for(height, params.threads, [&](std::size_t y) {
+    std::vector<WeightedDirection> nodes;
+    for (std::size_t x = 0; x < width; ++x) {
+      const Pixel cell = {static_cast<int>(x), static_cast<int>(y)};
+      Estimate& estimate = estimates[y * width + x];
+      if (estimate.change > 0)
+        for (std::size_t rule = 2; rule < kNodesASide.size(); ++rule) {
+          if (estimate.change <= allowed * cells.solid_angle(cell)) break;
+          const Rgb finer = cells.integrate(cell, rule, nodes);
+          estimate = {finer, largest(finer - estimate.value)};
+        }
+      rows[y].value += estimate.value;
+      rows[y].change += estimate.change;
+    }
+  });
+  BruteForceResult result;
+  for (const Estimate& row : rows) {
+    result.value += row.value;
+    result.error += row.change;
+  }
+  return result;
+}
+
+BruteForceResult reference_irradiance(const Light& light, Vec3d normal, const BruteForceParams& params) {
+  return integrate_light(
+      light,
+      [normal](Vec3d s) {
+        const double cosine = std::max(0.0, dot(normal, s));
+        return Rgb{cosine, cosine, cosine};
+      },
+      params);
+}
+
+}  // namespace shlight

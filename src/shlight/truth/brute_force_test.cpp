@@ -1,0 +1,103 @@
+#include "shlight/truth/brute_force.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "shlight/light/builtin_light.h"
+#include "shlight/sh/basis.h"
+#include "shlight/sh/zonal.h"
+#include "shlight/truth/truth_test_util.h"
+
+namespace shlight {
+namespace {
+
+Vec3d unit(Vec3d v) {
+  return 1 / std::sqrt(dot(v, v)) * v;
+}
+
+const Vec3d kNormals[] = {{0, 1, 0}, {0.36, 0.48, 0.8}, {-0.6, -0.64, 0.48}, {0, 0, -1}};
+
+double largest_difference(Rgb a, Rgb b) {
+  return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+TEST(BruteForce, IrradianceOfCoefficientsIsTheirConvolution) {
+  RgbCoefficients radiance(4);
+  for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] = {noise(1, i), noise(2, i) - 0.5, noise(3, i)};
+  const CoefficientLight light(radiance);
+  const RgbCoefficients irradiance = irradiance_from_radiance(radiance);
+  for (const Vec3d normal : kNormals) {
+    const BruteForceResult result = reference_irradiance(light, normal);
+    const Rgb expected = reconstruct(irradiance, normal);
+    EXPECT_LE(largest_difference(result.value, expected), result.error);
+    EXPECT_LT(result.error, 1e-4 * luminance(expected));
+  }
+}
+
+// A disc of the half angle α and radiance L at the angle θ from the normal, above the horizon: E = π L sin²α cos θ.
+TEST(BruteForce, DiscsHaveTheirClosedForm) {
+  for (const double half_angle : {0.0046, 0.1, 0.6}) {
+    const Vec3d axis = unit({1, 2, 3});
+    const FunctionLight light([](Vec3d) { return Rgb{}; }, {{axis, half_angle, {1, 2, 1e5}}});
+    const Vec3d normal = unit({0, 1, 3});
+    const BruteForceResult result = reference_irradiance(light, normal);
+    const double expected = std::numbers::pi * std::pow(std::sin(half_angle), 2) * dot(axis, normal);
+    EXPECT_NEAR(result.value.b, 1e5 * expected, result.error) << half_angle;
+    EXPECT_NEAR(result.value.r, expected, 2e-3 * expected) << "edges in 64 x 64 parts of a cell, " << half_angle;
+    EXPECT_LT(result.error, 0.01 * result.value.b) << half_angle;
+  }
+}
+
+// Pixels of constant radiance, in every layout: a closed form in the limit of many bands.
+TEST(BruteForce, PicturesOfEveryLayoutAgreeWithTheirCoefficients) {
+  for (const Layout layout : all_layouts()) {
+    const PictureSize size = picture_size(layout, size_from_horizon(layout, 24));
+    Environment environment{noise_image(size.width, size.height, 4), layout};
+    clear_unused(environment);
+    const ImageLight light(environment);
+    const RgbCoefficients irradiance = irradiance_from_radiance(light.project(40));
+    for (const Vec3d normal : kNormals) {
+      const Rgb value = reference_irradiance(light, normal).value;
+      // What degrees 40 and more have of irradiance, whose coefficients fall with the power −5/2 of the degree.
+      EXPECT_LT(largest_difference(value, reconstruct(irradiance, normal)), 2e-4 * value.g) << layout_name(layout);
+    }
+  }
+}
+
+TEST(BruteForce, BlackLightsGiveNothing) {
+  const BruteForceResult result = reference_irradiance(ImageLight({Image(8, 4), Layout::kLatLong}), {0, 1, 0});
+  EXPECT_EQ(result.value, Rgb{});
+  EXPECT_EQ(result.error, 0);
+}
+
+// Irradiance by somebody else's quadrature in double, of real lights.
+TEST(BruteForce, IrradianceOfRealLights) {
+  const char* data = std::getenv("SHLIGHT_TEST_DATA");
+  if (!data) GTEST_SKIP() << "SHLIGHT_TEST_DATA names no folder";
+  for (const char* name : {"blender_city.exr", "polyhaven_1k_sunset.hdr", "polyhaven_1k_venice.hdr"}) {
+    const std::filesystem::path folder = data;
+    std::ifstream file(folder / "references" / std::filesystem::path(name).replace_extension(".json"));
+    const nlohmann::json reference = nlohmann::json::parse(file);
+    const auto light = load_light((folder / "lights" / name).string()).light;
+    double largest = 0, error = 0;
+    for (const auto& e : reference["irradiance"])
+      largest = std::max({largest, double{e[0]}, double{e[1]}, double{e[2]}});
+    constexpr std::size_t kEvery = 25;  // of 200 directions
+    for (std::size_t i = 0; i < reference["irradiance"].size(); i += kEvery) {
+      const auto& n = reference["irradiance_at"][i];
+      const auto& e = reference["irradiance"][i];
+      error = std::max(
+          error, largest_difference(reference_irradiance(*light, unit({n[0], n[1], n[2]})).value, {e[0], e[1], e[2]}));
+    }
+    EXPECT_LT(error, 1e-4 * largest) << name;
+  }
+}
+
+}  // namespace
+}  // namespace shlight

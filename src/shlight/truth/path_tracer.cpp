@@ -1,0 +1,368 @@
+#include "shlight/truth/path_tracer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "shlight/core/assert.h"
+#include "shlight/core/parallel.h"
+#include "shlight/transfer/contacts.h"
+#include "shlight/transfer/hemisphere_samples.h"
+#include "shlight/transfer/local_frame.h"
+#include "shlight/transfer/sites.h"
+#include "shlight/transfer/surfaces.h"
+#include "shlight/transfer/tracer.h"
+#include "shlight/transfer/world_mesh.h"
+#include "shlight/truth/light_sampler.h"
+#include "shlight/truth/path_samples.h"
+
+namespace shlight {
+namespace {
+
+// Pixels of a tile, which one thread draws, and how many paths it follows at once: enough for long streams of rays.
+constexpr int kTile = 16;
+constexpr std::size_t kPathsAtOnce = 8192;
+
+constexpr float kFar = std::numeric_limits<float>::infinity();
+
+Vec3d unit(Vec3d v) {
+  const double length = std::sqrt(dot(v, v));
+  return length > 0 ? (1 / length) * v : Vec3d{};
+}
+
+Rgb operator*(Rgb a, Rgb b) {
+  return {a.r * b.r, a.g * b.g, a.b * b.b};
+}
+
+// --- the camera
+
+// Rays of a picture's points, in the frame of WorldMesh, whose origin is the middle of the scene.
+class CameraRays {
+ public:
+  CameraRays(const Scene& scene, const PathTraceParams& params) : width_(params.width), height_(params.height) {
+    const Extent extent = scene_extent(scene);
+    const View view = make_view(params.camera, extent, static_cast<double>(params.width) / params.height);
+    const auto& m = view.world_to_view;
+    // The rows of the view's matrix are the camera's axes over the radius; what it adds is where it puts the middle.
+    Vec3d middle;
+    for (std::size_t row = 0; row < 3; ++row) {
+      const Vec3d axis = {m[row], m[4 + row], m[8 + row]};
+      axes_[row] = extent.radius * axis;
+      const double shift = m[12 + row] + dot(axis, extent.center);
+      middle = middle + shift * extent.radius * axes_[row];
+    }
+    eye_ = -middle;
+    tan_x_ = 1 / view.view_to_clip[0];
+    tan_y_ = 1 / view.view_to_clip[5];
+    near_ = extent.radius * view.view_to_clip[14] / (view.view_to_clip[10] - 1);
+  }
+
+  Ray ray(double x, double y) const {
+    const double right = (2 * x / width_ - 1) * tan_x_, up = (1 - 2 * y / height_) * tan_y_;
+    const Vec3d way = right * axes_[0] + up * axes_[1] - axes_[2];
+    const double length = std::sqrt(dot(way, way));
+    Ray ray;
+    ray.origin = vec_cast<float>(eye_);
+    ray.direction = vec_cast<float>(1 / length * way);
+    ray.near = static_cast<float>(near_ * length);
+    ray.far = kFar;
+    return ray;
+  }
+
+ private:
+  int width_, height_;
+  std::array<Vec3d, 3> axes_;  // right, up, toward the viewer
+  Vec3d eye_;
+  double tan_x_, tan_y_, near_;
+};
+
+// --- the light, turned
+
+class TurnedLight {
+ public:
+  TurnedLight(const Light& light, const Rotation& to_world, int threads)
+      : light_(light), to_world_(to_world), to_light_(inverse(to_world)), sampler_(light, threads) {}
+
+  Rgb radiance(Vec3d direction) const { return light_.radiance(unit(to_light_(direction))); }
+  double pdf(Vec3d direction) const { return sampler_.pdf(unit(to_light_(direction))); }
+  LightSampler::Sample sample(PathSamples::Point point) const {
+    LightSampler::Sample sample = sampler_.sample(point.x, point.y);
+    sample.direction = to_world_(sample.direction);
+    return sample;
+  }
+
+ private:
+  const Light& light_;
+  Rotation to_world_, to_light_;
+  LightSampler sampler_;
+};
+
+// --- the scene
+
+// Where a path is reflected.
+struct Reflection {
+  Vec3f origin;  // of the rays that leave it
+  Vec3d normal;  // unit, on the side that reflects; zero where vertices' normals cancel each other
+  Rgb reflectance;
+};
+
+class TracedScene {
+ public:
+  TracedScene(const Scene& scene, const PathTraceParams& params)
+      : world_(make_world_mesh(scene)),
+        surfaces_(scene, world_),
+        tracer_((params.make_tracer ? params.make_tracer : make_embree_tracer)(world_.positions, world_.indices)),
+        sites_(make_sites(world_, params.threads)) {
+    place_origins(world_, params.threads, sites_);
+  }
+
+  const Tracer& tracer() const { return *tracer_; }
+
+  // What a ray meets, if that reflects; `from_camera`: backs do, too.
+  std::optional<Reflection> meet(const Hit& hit, Vec3f direction, bool from_camera) const {
+    if (const auto point = surfaces_.meet(hit, direction)) return reflection(*point, false);
+    if (!from_camera) return {};
+    // Its front is what a ray from the other side would meet.
+    const auto point = surfaces_.meet(hit, -direction);
+    return point ? std::optional(reflection(*point, true)) : std::nullopt;
+  }
+
+ private:
+  Reflection reflection(const SurfacePoint& point, bool is_back) const {
+    Vec3f position, origin, normal;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = point.vertices[k];
+      position = position + point.weights[k] * world_.positions[v];
+      origin = origin + point.weights[k] * sites_.origins[sites_.of_vertex[v]];
+      normal = normal + point.weights[k] * world_.normals[v];
+    }
+    const Vec3f& r = point.reflectance;
+    const Vec3d n = unit(vec_cast<double>(normal));
+    return {is_back ? position - (origin - position) : origin, is_back ? -n : n, {r.x, r.y, r.z}};
+  }
+
+  WorldMesh world_;
+  Surfaces surfaces_;
+  std::unique_ptr<Tracer> tracer_;
+  Sites sites_;
+};
+
+// --- paths
+
+struct Path {
+  std::uint32_t pixel = 0;   // of the tile
+  std::uint32_t sample = 0;  // of the replicate
+  Rgb throughput = {1, 1, 1};
+  Reflection at;
+  // What the light that was drawn adds where nothing is in its way, and what the next ray adds where it meets nothing.
+  Rgb if_light_open, if_next_open;
+  bool has_light = false, has_next = false;
+};
+
+// Everything that a tile's thread needs, and uses again and again.
+struct Workspace {
+  std::vector<Path> paths;
+  std::vector<Ray> light_rays, next_rays;
+  std::vector<Hit> hits;
+  std::vector<Rgb> sums;               // of the pixels, over one replicate
+  std::vector<Rgb> mean, mean_square;  // over replicates
+  std::uint64_t rays = 0;
+};
+
+struct Frame {
+  const PathTraceParams& params;
+  const TracedScene& scene;
+  const TurnedLight& light;
+  const CameraRays& camera;
+  const PathSamples& samples;
+};
+
+struct Tile {
+  int left = 0, top = 0, width = 0, height = 0;
+  std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+};
+
+Pixel pixel_of(const Tile& tile, std::size_t i) {
+  return {tile.left + static_cast<int>(i) % tile.width, tile.top + static_cast<int>(i) / tile.width};
+}
+
+Ray make_ray(Vec3f origin, Vec3d direction) {
+  Ray ray;
+  ray.origin = origin;
+  ray.direction = vec_cast<float>(direction);
+  ray.far = kFar;
+  return ray;
+}
+
+// Draws a direction of the light and one of the surface. The estimate of ∫ f L cos is the sum of both over the
+// densities p of the light and q of the surface, f L cos / (p + q) (the balance heuristic): with Lambert's f = ρ/π and
+// q = cos/π that is ρ q L / (p + q).
+void reflect(const Frame& frame, PathSamples::Point for_light, PathSamples::Point for_surface, Path& path,
+             Ray& light_ray, Ray& next_ray) {
+  const Vec3d n = path.at.normal;
+  path.throughput = path.throughput * path.at.reflectance;
+  path.has_light = path.has_next = false;
+  light_ray = next_ray = Ray{};
+  light_ray.far = next_ray.far = -1;  // meets nothing
+  if (n == Vec3d{}) return;
+
+  const LightSampler::Sample drawn = frame.light.sample(for_light);
+  if (const double cosine = dot(n, drawn.direction); cosine > 0) {
+    const double q = cosine / std::numbers::pi;
+    path.if_light_open = q / (drawn.pdf + q) * path.throughput * frame.light.radiance(drawn.direction);
+    light_ray = make_ray(path.at.origin, drawn.direction);
+    path.has_light = true;
+  }
+
+  const LocalFrame local = make_local_frame(n, 0);
+  const Vec3d lifted = lift_to_hemisphere(for_surface.x, for_surface.y);
+  const Vec3d direction = unit(lifted.x * local.x + lifted.y * local.y + lifted.z * local.z);
+  const double q = std::max(0.0, dot(n, direction)) / std::numbers::pi;
+  if (q == 0) return;
+  path.if_next_open = q / (frame.light.pdf(direction) + q) * path.throughput * frame.light.radiance(direction);
+  next_ray = make_ray(path.at.origin, direction);
+  path.has_next = true;
+}
+
+// Follows the paths of some samples of one replicate from the camera to their end.
+void follow_paths(const Frame& frame, const Tile& tile, std::uint64_t replicate, std::size_t begin, std::size_t end,
+                  Workspace& w) {
+  const PathTraceParams& params = frame.params;
+  const Tracer& tracer = frame.scene.tracer();
+  const auto point = [&](const Path& path, std::uint64_t pair) {
+    const Pixel p = pixel_of(tile, path.pixel);
+    const std::uint64_t pixel =
+        static_cast<std::uint64_t>(p.y) * static_cast<std::uint64_t>(params.width) + static_cast<std::uint64_t>(p.x);
+    return frame.samples.at(pixel, replicate, pair, path.sample);
+  };
+
+  w.paths.clear(), w.next_rays.clear();
+  for (std::size_t i = 0; i < tile.size(); ++i)
+    for (std::size_t sample = begin; sample < end; ++sample) {
+      Path path;
+      path.pixel = static_cast<std::uint32_t>(i), path.sample = static_cast<std::uint32_t>(sample);
+      const Pixel p = pixel_of(tile, i);
+      const PathSamples::Point in_pixel = point(path, 0);
+      w.paths.push_back(path);
+      w.next_rays.push_back(frame.camera.ray(p.x + in_pixel.x, p.y + in_pixel.y));
+    }
+
+  const int bounces = params.transfer == TransferKind::kInterreflected ? params.bounces : 0;
+  for (int bounce = 0; !w.paths.empty(); ++bounce) {
+    // Where the paths have come to. Those that meet nothing that reflects end.
+    w.hits.resize(w.paths.size());
+    tracer.find_hits(w.next_rays, w.hits);
+    w.rays += w.paths.size();
+    std::size_t kept = 0;
+    for (std::size_t j = 0; j < w.paths.size(); ++j) {
+      Path& path = w.paths[j];
+      const Vec3f direction = w.next_rays[j].direction;
+      if (w.hits[j].triangle == Hit::kNone) {
+        if (bounce > 0)
+          w.sums[path.pixel] += path.if_next_open;
+        else if (params.show_background)
+          w.sums[path.pixel] += frame.light.radiance(unit(vec_cast<double>(direction)));
+        continue;
+      }
+      if (bounce > bounces) continue;
+      const auto at = frame.scene.meet(w.hits[j], direction, bounce == 0);
+      if (!at) continue;
+      path.at = *at;
+      w.paths[kept++] = path;
+    }
+    w.paths.resize(kept);
+
+    w.light_rays.resize(kept), w.next_rays.resize(kept);
+    const auto first_pair = 1 + 2 * static_cast<std::uint64_t>(bounce);
+    for (std::size_t j = 0; j < kept; ++j)
+      reflect(frame, point(w.paths[j], first_pair), point(w.paths[j], first_pair + 1), w.paths[j], w.light_rays[j],
+              w.next_rays[j]);
+    if (params.transfer == TransferKind::kCosine) {
+      for (const Path& path : w.paths) {
+        if (path.has_light) w.sums[path.pixel] += path.if_light_open;
+        if (path.has_next) w.sums[path.pixel] += path.if_next_open;
+      }
+      return;
+    }
+    tracer.find_occluded(w.light_rays);
+    w.rays += kept;
+    kept = 0;
+    for (std::size_t j = 0; j < w.paths.size(); ++j) {
+      if (w.paths[j].has_light && !(w.light_rays[j].far < 0)) w.sums[w.paths[j].pixel] += w.paths[j].if_light_open;
+      if (!w.paths[j].has_next) continue;
+      w.next_rays[kept] = w.next_rays[j];
+      w.paths[kept++] = w.paths[j];
+    }
+    w.paths.resize(kept), w.next_rays.resize(kept);
+  }
+}
+
+void draw_tile(const Frame& frame, const Tile& tile, Workspace& w, PathTraceResult& result) {
+  const std::size_t pixels = tile.size(), samples = frame.samples.size();
+  const std::size_t at_once = std::max<std::size_t>(1, kPathsAtOnce / pixels);
+  std::vector<std::vector<Rgb>> means(kReplicates);
+  for (int replicate = 0; replicate < kReplicates; ++replicate) {
+    w.sums.assign(pixels, {});
+    for (std::size_t begin = 0; begin < samples; begin += at_once)
+      follow_paths(frame, tile, static_cast<std::uint64_t>(replicate), begin, std::min(samples, begin + at_once), w);
+    for (Rgb& sum : w.sums) sum = 1 / static_cast<double>(samples) * sum;
+    means[static_cast<std::size_t>(replicate)] = w.sums;
+  }
+  for (std::size_t i = 0; i < pixels; ++i) {
+    Rgb mean, squares;
+    for (const auto& of_replicate : means) mean += 1.0 / kReplicates * of_replicate[i];
+    for (const auto& of_replicate : means) {
+      const Rgb off = of_replicate[i] - mean;
+      squares += off * off;
+    }
+    const Pixel p = pixel_of(tile, i);
+    result.radiance.set_rgb(p.x, p.y, mean);
+    result.variance.set_rgb(p.x, p.y, 1.0 / (kReplicates * (kReplicates - 1)) * squares);
+  }
+}
+
+}  // namespace
+
+PathTraceResult trace_paths(const Scene& scene, const Light& light, const PathTraceParams& params,
+                            const Progress& progress) {
+  SHLIGHT_ASSERT_LE(1, params.width);
+  SHLIGHT_ASSERT_LE(1, params.height);
+  SHLIGHT_ASSERT_LE(1, params.samples);
+  SHLIGHT_ASSERT_LE(params.samples, kMaxPathSamples);
+  SHLIGHT_ASSERT_LE(0, params.bounces);
+  SHLIGHT_ASSERT_LE(params.bounces, 64);
+  const auto start = std::chrono::steady_clock::now();
+  report_progress(progress, 0);
+  const TracedScene traced(scene, params);
+  const TurnedLight turned(light, params.rotate_light, params.threads);
+  const CameraRays camera(scene, params);
+  const std::size_t samples = (static_cast<std::size_t>(params.samples) + kReplicates - 1) / kReplicates;
+  const PathSamples path_samples(samples, params.seed, params.threads);
+  const Frame frame{params, traced, turned, camera, path_samples};
+
+  PathTraceResult result;
+  result.radiance = result.variance = Image(params.width, params.height);
+  result.samples = static_cast<int>(samples) * kReplicates;
+  const int columns = (params.width + kTile - 1) / kTile, rows = (params.height + kTile - 1) / kTile;
+  const std::size_t tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  std::mutex mutex;  // of what is counted
+  std::size_t done = 0;
+  parallel_for(tiles, params.threads, [&](std::size_t i) {
+    const int left = static_cast<int>(i) % columns * kTile, top = static_cast<int>(i) / columns * kTile;
+    Workspace workspace;
+    draw_tile(frame, {left, top, std::min(kTile, params.width - left), std::min(kTile, params.height - top)}, workspace,
+              result);
+    const std::lock_guard lock(mutex);
+    result.rays += workspace.rays;
+    report_progress(progress, static_cast<double>(++done) / static_cast<double>(tiles));
+  });
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace shlight
