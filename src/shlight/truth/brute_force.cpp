@@ -119,4 +119,16 @@ BruteForceResult reference_irradiance(const Light& light, Vec3d normal, const Br
       params);
 }
 
+BruteForceResult reference_radiance(const Light& light, const Brdf& brdf, const Rotation& to_local, Vec3d view,
+                                    const BruteForceParams& params) {
+  const Vec3d v = to_local(view);
+  return integrate_light(
+      light,
+      [&](Vec3d direction) {
+        const Vec3d s = to_local(direction);
+        return std::max(0.0, s.z) * brdf.eval(s, v);
+      },
+      params);
+}
+
 }  // namespace shlight

@@ -2,7 +2,9 @@
 
 #include <functional>
 
+#include "shlight/brdf/brdf.h"
 #include "shlight/light/light.h"
+#include "shlight/sh/rotation.h"
 
 // Integrals over all directions of an unoccluded point, without spherical harmonics: slow, and easy to believe.
 
@@ -29,5 +31,11 @@ BruteForceResult integrate_light(const Light& light, const std::function<Rgb(Vec
 
 // ∫ L(s) max(0, n·s) ds, the irradiance on a surface with the unit normal n.
 BruteForceResult reference_irradiance(const Light& light, Vec3d normal, const BruteForceParams& params = {});
+
+// ∫ L(s) f_r(s, v) max(0, n·s) ds, the radiance that a surface reflects toward the unit direction `view`. The rows of
+// `to_local` are the axes of the BRDF's frame in the world: tangent, bitangent, normal. Slim highlights should not be
+// slimmer than a cell.
+BruteForceResult reference_radiance(const Light& light, const Brdf& brdf, const Rotation& to_local, Vec3d view,
+                                    const BruteForceParams& params = {});
 
 }  // namespace shlight

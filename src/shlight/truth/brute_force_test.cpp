@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "shlight/brdf/make_brdf.h"
+#include "shlight/brdf/project_brdf.h"
 #include "shlight/light/builtin_light.h"
 #include "shlight/sh/basis.h"
 #include "shlight/sh/zonal.h"
@@ -66,6 +68,29 @@ TEST(BruteForce, PicturesOfEveryLayoutAgreeWithTheirCoefficients) {
       const Rgb value = reference_irradiance(light, normal).value;
       // What degrees 40 and more have of irradiance, whose coefficients fall with the power −5/2 of the degree.
       EXPECT_LT(largest_difference(value, reconstruct(irradiance, normal)), 2e-4 * value.g) << layout_name(layout);
+    }
+  }
+}
+
+// Against coefficients of a light and of a BRDF at one view, which another quadrature made, in the BRDF's frame.
+TEST(BruteForce, RadianceOfCoefficientsIsTheirProduct) {
+  RgbCoefficients radiance(5);
+  for (std::size_t i = 0; i < radiance.size(); ++i) radiance[i] = {noise(1, i), noise(2, i), noise(3, i)};
+  radiance[0] = {3, 3, 3};
+  const CoefficientLight light(radiance);
+  const Rotation to_local = rotation_zyz(0.3, 0.8, -1.1);
+  for (const char* material : {"lambert:rho=0.5", "oren-nayar:rho=0.8,sigma=0.5",
+                               "ward-aniso:rd=0.2,rs=0.3,sx=0.2,sy=0.5", "cook-torrance:m=0.3,f0=0.9"}) {
+    const auto brdf = make_brdf(material);
+    for (const double theta : {0.2, 1.2}) {
+      const Vec3d v = {std::sin(theta), 0, std::cos(theta)};
+      const BruteForceResult result = reference_radiance(light, *brdf, to_local, inverse(to_local)(v));
+      const RgbCoefficients local = rotate(to_local, radiance), f = project_brdf(*brdf, v, 5).coefficients;
+      Rgb expected;
+      for (std::size_t i = 0; i < f.size(); ++i)
+        expected += Rgb{local[i].r * f[i].r, local[i].g * f[i].g, local[i].b * f[i].b};
+      EXPECT_LT(largest_difference(result.value, expected), 1e-5 * expected.g) << material << " " << theta;
+      EXPECT_LT(result.error, 1e-3 * expected.g) << material << " " << theta;
     }
   }
 }

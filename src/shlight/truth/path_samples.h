@@ -6,11 +6,11 @@
 
 namespace shlight {
 
-// Random numbers of paths, in pairs: one for the place in the pixel, two for each place where light is reflected. Every
-// pair of every pixel has its own well-spread set of points in the unit square, one for each path: a scrambled Sobol
-// set (sobol.h) in a random sequence, so that pairs have nothing to do with each other, moved around the square by a
-// random step [1]. Each point by itself is uniform. Replicates have independent steps: the scatter of their means is
-// the error of the mean over all.
+// Random numbers of paths, in pairs: one for the place in the pixel, three for each place where light is reflected.
+// Every pair of every pixel has its own well-spread set of points in the unit square, one for each path: a scrambled
+// Sobol set (sobol.h) in a random sequence, so that pairs have nothing to do with each other, moved around the square
+// by a random step [1]. Each point by itself is uniform. Replicates have independent steps: the scatter of their means
+// is the error of the mean over all.
 //
 // [1] Cranley & Patterson 1976, Randomization of Number Theoretic Methods for Multiple Integration, SIAM Journal on
 //     Numerical Analysis 13(6).

@@ -109,6 +109,7 @@ struct Reflection {
   Vec3f origin;  // of the rays that leave it
   Vec3d normal;  // unit, on the side that reflects; zero where vertices' normals cancel each other
   Rgb reflectance;
+  Vec3d to_eye;  // unit, back along the path
 };
 
 class TracedScene {
@@ -125,15 +126,15 @@ class TracedScene {
 
   // What a ray meets, if that reflects; `from_camera`: backs do, too.
   std::optional<Reflection> meet(const Hit& hit, Vec3f direction, bool from_camera) const {
-    if (const auto point = surfaces_.meet(hit, direction)) return reflection(*point, false);
+    if (const auto point = surfaces_.meet(hit, direction)) return reflection(*point, direction, false);
     if (!from_camera) return {};
     // Its front is what a ray from the other side would meet.
     const auto point = surfaces_.meet(hit, -direction);
-    return point ? std::optional(reflection(*point, true)) : std::nullopt;
+    return point ? std::optional(reflection(*point, direction, true)) : std::nullopt;
   }
 
  private:
-  Reflection reflection(const SurfacePoint& point, bool is_back) const {
+  Reflection reflection(const SurfacePoint& point, Vec3f direction, bool is_back) const {
     Vec3f position, origin, normal;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = point.vertices[k];
@@ -143,7 +144,10 @@ class TracedScene {
     }
     const Vec3f& r = point.reflectance;
     const Vec3d n = unit(vec_cast<double>(normal));
-    return {is_back ? position - (origin - position) : origin, is_back ? -n : n, {r.x, r.y, r.z}};
+    return {is_back ? position - (origin - position) : origin,
+            is_back ? -n : n,
+            {r.x, r.y, r.z},
+            -unit(vec_cast<double>(direction))};
   }
 
   WorldMesh world_;
@@ -199,34 +203,71 @@ Ray make_ray(Vec3f origin, Vec3d direction) {
   return ray;
 }
 
-// Draws a direction of the light and one of the surface. The estimate of ∫ f L cos is the sum of both over the
-// densities p of the light and q of the surface, f L cos / (p + q) (the balance heuristic): with Lambert's f = ρ/π and
-// q = cos/π that is ρ q L / (p + q).
-void reflect(const Frame& frame, PathSamples::Point for_light, PathSamples::Point for_surface, Path& path,
-             Ray& light_ray, Ray& next_ray) {
-  const Vec3d n = path.at.normal;
-  path.throughput = path.throughput * path.at.reflectance;
+// How a surface reflects at a point: Lambert's way, f = ρ/π, or by a model of all surfaces.
+class Reflector {
+ public:
+  Reflector(const Reflection& at, const Brdf* brdf)
+      : at_(at), brdf_(brdf), frame_(make_local_frame(at.normal, 0)), to_eye_(to_local(at.to_eye)) {}
+
+  // f cos of a direction to the light, and the density with which `sample` draws it, per steradian.
+  struct Value {
+    Rgb f_cos;
+    double pdf = 0;
+  };
+  Value eval(Vec3d direction) const {
+    const double cosine = dot(at_.normal, direction);
+    if (!(cosine > 0)) return {};
+    if (!brdf_) return {cosine / std::numbers::pi * at_.reflectance, cosine / std::numbers::pi};
+    if (!(to_eye_.z > 0)) return {};
+    const Vec3d s = to_local(direction);
+    return {cosine * brdf_->eval(s, to_eye_), sample_brdf_pdf(*brdf_, s, to_eye_)};
+  }
+
+  // A unit direction, which may lie below the horizon.
+  Vec3d sample(PathSamples::Point point, double lobe) const {
+    const Vec3d s = brdf_ && to_eye_.z > 0 ? sample_brdf(*brdf_, to_eye_, lobe, point.x, point.y)
+                                           : lift_to_hemisphere(point.x, point.y);
+    return unit(s.x * frame_.x + s.y * frame_.y + s.z * frame_.z);
+  }
+
+ private:
+  Vec3d to_local(Vec3d v) const { return {dot(frame_.x, v), dot(frame_.y, v), dot(frame_.z, v)}; }
+
+  const Reflection& at_;
+  const Brdf* brdf_;
+  LocalFrame frame_;
+  Vec3d to_eye_;
+};
+
+// Three pairs of random numbers of one reflection.
+struct ReflectionSamples {
+  PathSamples::Point light, surface, lobe;
+};
+
+// Draws a direction of the light and one of the surface. With their densities p and q, both together estimate ∫ f L cos
+// as the sum of f L cos / (p + q) of either (the balance heuristic).
+void reflect(const Frame& frame, const ReflectionSamples& samples, Path& path, Ray& light_ray, Ray& next_ray) {
   path.has_light = path.has_next = false;
   light_ray = next_ray = Ray{};
   light_ray.far = next_ray.far = -1;  // meets nothing
-  if (n == Vec3d{}) return;
+  if (path.at.normal == Vec3d{}) return;
+  const Reflector reflector(path.at, frame.params.brdf);
 
-  const LightSampler::Sample drawn = frame.light.sample(for_light);
-  if (const double cosine = dot(n, drawn.direction); cosine > 0) {
-    const double q = cosine / std::numbers::pi;
-    path.if_light_open = q / (drawn.pdf + q) * path.throughput * frame.light.radiance(drawn.direction);
+  const LightSampler::Sample drawn = frame.light.sample(samples.light);
+  if (const auto [f_cos, q] = reflector.eval(drawn.direction); f_cos != Rgb{}) {
+    path.if_light_open = 1 / (drawn.pdf + q) * path.throughput * f_cos * frame.light.radiance(drawn.direction);
     light_ray = make_ray(path.at.origin, drawn.direction);
     path.has_light = true;
   }
 
-  const LocalFrame local = make_local_frame(n, 0);
-  const Vec3d lifted = lift_to_hemisphere(for_surface.x, for_surface.y);
-  const Vec3d direction = unit(lifted.x * local.x + lifted.y * local.y + lifted.z * local.z);
-  const double q = std::max(0.0, dot(n, direction)) / std::numbers::pi;
-  if (q == 0) return;
-  path.if_next_open = q / (frame.light.pdf(direction) + q) * path.throughput * frame.light.radiance(direction);
-  next_ray = make_ray(path.at.origin, direction);
-  path.has_next = true;
+  const Vec3d direction = reflector.sample(samples.surface, samples.lobe.x);
+  if (const auto [f_cos, q] = reflector.eval(direction); q > 0 && f_cos != Rgb{}) {
+    path.if_next_open =
+        1 / (frame.light.pdf(direction) + q) * path.throughput * f_cos * frame.light.radiance(direction);
+    path.throughput = 1 / q * path.throughput * f_cos;
+    next_ray = make_ray(path.at.origin, direction);
+    path.has_next = true;
+  }
 }
 
 // Follows the paths of some samples of one replicate from the camera to their end.
@@ -278,10 +319,12 @@ void follow_paths(const Frame& frame, const Tile& tile, std::uint64_t replicate,
     w.paths.resize(kept);
 
     w.light_rays.resize(kept), w.next_rays.resize(kept);
-    const auto first_pair = 1 + 2 * static_cast<std::uint64_t>(bounce);
-    for (std::size_t j = 0; j < kept; ++j)
-      reflect(frame, point(w.paths[j], first_pair), point(w.paths[j], first_pair + 1), w.paths[j], w.light_rays[j],
-              w.next_rays[j]);
+    const auto pair = 1 + 3 * static_cast<std::uint64_t>(bounce);
+    for (std::size_t j = 0; j < kept; ++j) {
+      Path& path = w.paths[j];
+      const ReflectionSamples drawn = {point(path, pair), point(path, pair + 1), point(path, pair + 2)};
+      reflect(frame, drawn, path, w.light_rays[j], w.next_rays[j]);
+    }
     if (params.transfer == TransferKind::kCosine) {
       for (const Path& path : w.paths) {
         if (path.has_light) w.sums[path.pixel] += path.if_light_open;

@@ -9,11 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "shlight/brdf/make_brdf.h"
 #include "shlight/core/error.h"
 #include "shlight/light/light.h"
 #include "shlight/scene/builtin_scene.h"
 #include "shlight/scene/shapes.h"
 #include "shlight/scene/shapes_test_util.h"
+#include "shlight/truth/brute_force.h"
 #include "shlight/truth/truth_test_util.h"
 
 namespace shlight {
@@ -231,6 +233,45 @@ TEST(PathTracer, BacksAreLitFromTheirSide) {
       const PathTraceResult result = trace_paths(scene, light, params);
       expect_mean(summarize(result, [e = expected](int, int) { return e; }), kRounding, std::to_string(azimuth));
     }
+}
+
+// Each pixel of a plane sees one direction of the eye; brute force has its radiance.
+TEST(PathTracer, BrdfsAgreeWithBruteForce) {
+  const auto light = load_light("builtin:studio").light;
+  for (const char* material : {"oren-nayar:rho=0.8,sigma=0.6", "ward:rd=0.2,rs=0.3,sigma=0.2",
+                               "ward-aniso:rd=0.1,rs=0.3,sx=0.15,sy=0.5", "cook-torrance:m=0.25,f0=0.9"}) {
+    const auto brdf = make_brdf(material);
+    PathTraceParams params = small_picture(TransferKind::kShadowed, 256);
+    params.width = params.height = 12;
+    params.camera = {40, 25, 200, 1};
+    params.brdf = brdf.get();
+    const PathTraceResult result = trace_paths(make_test_scene(make_square()), *light, params);
+    // Toward the eye, from the middle of the picture; over the rest the direction changes by half a degree,
+    // the more and the less of which cancel.
+    constexpr double kViewTolerance = 1e-3;
+    const double azimuth = 40 * std::numbers::pi / 180, elevation = 25 * std::numbers::pi / 180;
+    const Vec3d eye = {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                       std::cos(elevation) * std::cos(azimuth)};
+    BruteForceParams brute_force;
+    brute_force.tolerance = 1e-4;
+    const Rgb expected = reference_radiance(*light, *brdf, {}, eye, brute_force).value;
+    expect_mean(summarize(result, [&](int, int) { return expected.g; }), kViewTolerance, material);
+  }
+}
+
+// A model of the surfaces that is Lambert's is their own.
+TEST(PathTracer, LambertsModelIsTheColor) {
+  const auto brdf = make_brdf("lambert:rho=0.8");
+  PathTraceParams params = seen_from_above(TransferKind::kInterreflected, 64, 1);
+  params.brdf = brdf.get();
+  const PathTraceResult result = trace_paths(make_test_scene(make_bowl(), {0, 0, 0}), uniform_light({1, 1, 1}), params);
+  params.brdf = nullptr;
+  const PathTraceResult own =
+      trace_paths(make_test_scene(make_bowl(), {0.8f, 0.8f, 0.8f}), uniform_light({1, 1, 1}), params);
+  const auto all = [](int, int) { return 0.0; };
+  const Summary a = summarize(result, all), b = summarize(own, all);
+  EXPECT_GT(b.mean, 0.1);
+  EXPECT_NEAR(a.mean, b.mean, kMostDeviations * std::hypot(a.deviation, b.deviation));
 }
 
 // Blocks of 8 x 8 pixels of two seeds differ by what their variances allow: not more, or something is biased or the
