@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "command.h"
 #include "shlight/core/error.h"
+#include "shlight/core/file.h"
+#include "shlight/image/tone_map.h"
 #include "shlight/scene/load_scene.h"
+#include "shlight/truth/path_tracer.h"
 
 namespace shlight::app {
 namespace {
@@ -23,6 +27,7 @@ struct RenderArguments {
   BakeParams bake;  // --method transfer
   RenderParams params;
   std::filesystem::path output;
+  std::filesystem::path deviation;  // --method reference
   bool no_background = false;
   bool json = false;
 };
@@ -46,6 +51,57 @@ std::string parse_camera(const std::string& text, Camera& camera) {
   return good ? "" : "'" + text + "' is no camera: azimuth, elevation (-90 to 90) in degrees, zoom (0.01 to 100)";
 }
 
+// Root mean square of the pixels' deviations, relative to the picture's.
+double relative_noise(const PathTraceResult& result) {
+  double variance = 0, square = 0;
+  for (const float v : result.variance.values) variance += double{v};
+  for (const float v : result.radiance.values) square += double{v} * double{v};
+  return square > 0 ? std::sqrt(variance / square) : 0;
+}
+
+void run_reference(const RenderArguments& arguments, const Scene& scene, const Light& light,
+                   const RenderParams& render) {
+  std::filesystem::path output = arguments.output;
+  if (output.empty() && !arguments.json) output = "render.png";
+  for (const auto& path : {output, arguments.deviation})
+    if (!path.empty()) check_writable(path);  // before minutes of work
+
+  PathTraceParams params;
+  params.width = render.width, params.height = render.height;
+  params.camera = render.camera;
+  params.rotate_light = render.rotate_light;
+  params.show_background = render.show_background;
+  params.transfer = arguments.bake.kind, params.bounces = arguments.bake.bounces;
+  if (arguments.bake.samples > 0) params.samples = arguments.bake.samples;
+  const PathTraceResult result = trace_paths(scene, light, params, progress_bar("tracing"));
+
+  if (output.extension() == ".exr")
+    save_image(output, result.radiance);
+  else if (!output.empty())
+    save_image8(output, make_picture8(result.radiance, auto_exposure(light.project(1)) * std::exp2(render.exposure)));
+  if (!arguments.deviation.empty()) {
+    Image deviation = result.variance;
+    for (float& v : deviation.values) v = std::sqrt(v);
+    save_image(arguments.deviation, deviation);
+  }
+  const double noise = relative_noise(result);
+  if (!output.empty())
+    spdlog::info("{}: {} x {}, {} triangles, {} paths a pixel, {:.3g} million rays in {:.3g} s, noise {:.2g} %",
+                 output.string(), params.width, params.height, num_triangles(scene), result.samples,
+                 1e-6 * static_cast<double>(result.rays), result.seconds, 100 * noise);
+  if (arguments.json)
+    print_json({{"frame_ms", 1000 * result.seconds},
+                {"width", params.width},
+                {"height", params.height},
+                {"triangles", num_triangles(scene)},
+                {"gl_renderer", "none"},
+                {"method", arguments.method},
+                {"transfer", transfer_kind_name(params.transfer)},
+                {"samples", result.samples},
+                {"rays", result.rays},
+                {"noise", noise}});
+}
+
 void run_render(const RenderArguments& arguments) {
   const Scene scene = make_scene(arguments.model);
   for (const std::string& warning : scene.warnings) spdlog::warn("{}: {}", arguments.model, warning);
@@ -54,6 +110,7 @@ void run_render(const RenderArguments& arguments) {
   RenderParams params = arguments.params;
   params.show_background = !arguments.no_background;
   params.rotate_light = rotation_about_y(arguments.rotate_light * std::numbers::pi / 180) * arguments.shape.rotation;
+  if (arguments.method == "reference") return run_reference(arguments, scene, *loaded.light, params);
   RenderLight light = make_render_light(*loaded.light, params.bands);
   light.coefficients = apply_window(arguments.shape, light.coefficients);
 
@@ -105,11 +162,13 @@ void add_render(CLI::App& program, Run& run) {
       ->capture_default_str()
       ->check(CLI::Range(1, 10).description("1 to 10"));
   command
-      ->add_option("--method", arguments->method,
-                   "How the model is lit: by its normals, or by what is baked for each vertex (--transfer)")
-      ->type_name("irradiance|transfer")
+      ->add_option(
+          "--method", arguments->method,
+          "How the model is lit: by its normals, by what is baked for each vertex (--transfer), or path traced "
+          "without spherical harmonics, what the others approximate (--transfer, --samples a pixel)")
+      ->type_name("irradiance|transfer|reference")
       ->capture_default_str()
-      ->check(CLI::IsMember({"irradiance", "transfer"}).description(""));
+      ->check(CLI::IsMember({"irradiance", "transfer", "reference"}).description(""));
   arguments->bake.kind = TransferKind::kInterreflected;
   add_bake_options(*command, arguments->bake);
   command
@@ -152,16 +211,31 @@ void add_render(CLI::App& program, Run& run) {
             return extension == ".png" || extension == ".exr" ? "" : "'" + name + "' ends neither in .png nor in .exr";
           },
           ""));
+  command->add_option("--deviation", arguments->deviation, "Write how noisy each pixel of --method reference is")
+      ->type_name("FILE.exr")
+      ->check(CLI::Validator(
+          [](std::string& name) {
+            return std::filesystem::path(name).extension() == ".exr" ? "" : "'" + name + "' does not end in .exr";
+          },
+          ""));
   command->add_flag("--json", arguments->json, "Print the time of a frame and more on stdout");
   command->footer(
       "Examples:\n  shlight render skull.x --light venice.hdr -o picture.png\n"
       "  shlight render builtin:knot --light builtin:studio --bands 5 --camera 20,10,1.2 -o knot.png\n"
-      "  shlight render builtin:scene --method transfer --transfer shadowed --bands 5 -o shadows.png");
+      "  shlight render builtin:scene --method transfer --transfer shadowed --bands 5 -o shadows.png\n"
+      "  shlight render builtin:scene --method reference --transfer shadowed --samples 64 --size 320x180 -o truth.exr");
   command->callback([arguments, command, &run] {
+    const bool is_reference = arguments->method == "reference";
     for (const char* option : {"--transfer", "--samples", "--bounces"})
-      if (command->count(option) > 0 && arguments->method != "transfer")
-        throw CLI::ValidationError(option, "only with --method transfer");
-    check_bake_options(*command, arguments->bake);
+      if (command->count(option) > 0 && arguments->method != "transfer" && !is_reference)
+        throw CLI::ValidationError(option, "only with --method transfer or reference");
+    for (const char* option : {"--bands", "--window", "--mark-negative", "--frames"})
+      if (command->count(option) > 0 && is_reference) throw CLI::ValidationError(option, "not with --method reference");
+    if (command->count("--deviation") > 0 && !is_reference)
+      throw CLI::ValidationError("--deviation", "only with --method reference");
+    if (command->count("--bounces") > 0 && is_reference && arguments->bake.kind != TransferKind::kInterreflected)
+      throw CLI::ValidationError("--bounces", "only with --transfer interreflected");
+    if (!is_reference) check_bake_options(*command, arguments->bake);
     run = [arguments] { run_render(*arguments); };
   });
 }

