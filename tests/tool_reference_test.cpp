@@ -72,7 +72,7 @@ TEST_F(ToolReference, RefusesWhatCannotBeWrittenBeforeItTraces) {
 class ToolReferenceDrawing : public ToolDrawingTest {};
 
 // Nothing is approximated where the light has as many bands as are drawn: what is left is noise and how edges are
-// averaged over a pixel.
+// averaged over a pixel, of which the graphics card takes four samples.
 TEST_F(ToolReferenceDrawing, IsWhatIrradianceApproximates) {
   run({"project", "builtin:sky", "--bands", "3", "-o", path("sky.json")});
   const std::vector<std::string> same = {"--light",  path("sky.json"), "--size",         "96x64", "--no-background",
@@ -84,7 +84,7 @@ TEST_F(ToolReferenceDrawing, IsWhatIrradianceApproximates) {
   traced.insert(traced.end(), same.begin(), same.end());
   run(irradiance);
   run(traced);
-  run({"compare", path("i.exr"), path("r.exr"), "--max-relative", "0.03", "--min-ssim", "0.98", "--max-flip", "0.03"});
+  run({"compare", path("i.exr"), path("r.exr"), "--max-relative", "0.06", "--min-ssim", "0.98", "--max-flip", "0.04"});
 }
 
 }  // namespace

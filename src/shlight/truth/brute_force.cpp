@@ -66,43 +66,61 @@ struct Estimate {
 BruteForceResult integrate_light(const Light& light, const std::function<Rgb(Vec3d)>& weight,
                                  const BruteForceParams& params) {
   const Cells cells(light, weight);
-  const PictureSize size = cells.size();
-  const auto width = static_cast<std::size_t>(size.width), height = static_cast<std::size_t>(size.height);
-  std::vector<Estimate> estimates(width * height);
-  std::vector<double> magnitudes(height);
-  parallel_for(height, params.threads, [&](std::size_t y) {
-    std::vector<WeightedDirection> nodes;
-    for (std::size_t x = 0; x < width; ++x) {
-      const Pixel cell = {static_cast<int>(x), static_cast<int>(y)};
-      if (!cells.covers(cell)) continue;
-      const Rgb coarse = cells.integrate(cell, 0, nodes), fine = cells.integrate(cell, 1, nodes);
-      estimates[y * width + x] = {fine, largest(fine - coarse)};
-      magnitudes[y] += largest(fine);
+  const int width = cells.size().width, height = cells.size().height;
+  const auto index = [width](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  };
+  // Calls f(cell, nodes) for each cell that covers anything, rows in parallel.
+  const auto for_cells = [&](const auto& f) {
+    parallel_for(static_cast<std::size_t>(height), params.threads, [&](std::size_t row) {
+      std::vector<WeightedDirection> nodes;
+      for (int x = 0; x < width; ++x)
+        if (const Pixel cell = {x, static_cast<int>(row)}; cells.covers(cell)) f(cell, nodes);
+    });
+  };
+
+  std::vector<Estimate> estimates(index(0, height));
+  std::vector<double> magnitudes(static_cast<std::size_t>(height));
+  for_cells([&](Pixel cell, std::vector<WeightedDirection>& nodes) {
+    const Rgb coarse = cells.integrate(cell, 0, nodes), fine = cells.integrate(cell, 1, nodes);
+    estimates[index(cell.x, cell.y)] = {fine, largest(fine - coarse)};
+    magnitudes[static_cast<std::size_t>(cell.y)] += largest(fine);
+  });
+  double magnitude = 0;
+  for (const double of_row : magnitudes) magnitude += of_row;
+
+  // Each cell may be wrong in proportion to its solid angle. An edge that cuts off less of a cell than there is between
+  // its nodes shows in the cell beside: the neighbours of those that are wrong are refined, too.
+  const double allowed = params.tolerance * magnitude / (4 * std::numbers::pi);
+  std::vector<char> is_wrong(estimates.size());
+  for_cells([&](Pixel cell, auto&) {
+    const std::size_t i = index(cell.x, cell.y);
+    is_wrong[i] = estimates[i].change > allowed * cells.solid_angle(cell);
+  });
+  const auto is_near_wrong = [&](Pixel cell) {
+    for (int y = std::max(cell.y - 1, 0); y <= std::min(cell.y + 1, height - 1); ++y)
+      for (int x = cell.x - 1; x <= cell.x + 1; ++x)
+        if (is_wrong[index((x + width) % width, y)]) return true;
+    return false;
+  };
+  for_cells([&](Pixel cell, std::vector<WeightedDirection>& nodes) {
+    if (!is_near_wrong(cell)) return;
+    Estimate& estimate = estimates[index(cell.x, cell.y)];
+    for (std::size_t rule = 2; rule < kNodesASide.size(); ++rule) {
+      const Rgb finer = cells.integrate(cell, rule, nodes);
+      estimate = {finer, largest(finer - estimate.value)};
+      constexpr std::size_t kLeastRule = 3;  // 8 nodes a side
+      if (rule >= kLeastRule && estimate.change <= allowed * cells.solid_angle(cell)) break;
     }
   });
 
-  // Each cell may be wrong in proportion to its solid angle.
-  double magnitude = 0;
-  for (const double of_row : magnitudes) magnitude += of_row;
-  const double allowed = params.tolerance * magnitude / (4 * std::numbers::pi);
-  std::vector<Estimate> rows(height);
-  parallel_for(height, params.threads, [&](std::size_t y) {
-    std::vector<WeightedDirection> nodes;
-    for (std::size_t x = 0; x < width; ++x) {
-      const Pixel cell = {static_cast<int>(x), static_cast<int>(y)};
-      Estimate& estimate = estimates[y * width + x];
-      if (estimate.change > 0)
-        for (std::size_t rule = 2; rule < kNodesASide.size(); ++rule) {
-          if (estimate.change <= allowed * cells.solid_angle(cell)) break;
-          const Rgb finer = cells.integrate(cell, rule, nodes);
-          estimate = {finer, largest(finer - estimate.value)};
-        }
-      rows[y].value += estimate.value;
-      rows[y].change += estimate.change;
-    }
-  });
   BruteForceResult result;
-  for (const Estimate& row : rows) {
+  for (int y = 0; y < height; ++y) {
+    Estimate row;
+    for (int x = 0; x < width; ++x) {
+      row.value += estimates[index(x, y)].value;
+      row.change += estimates[index(x, y)].change;
+    }
     result.value += row.value;
     result.error += row.change;
   }

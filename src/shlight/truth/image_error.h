@@ -53,7 +53,7 @@ inline constexpr int kWorstApart = 16;
 void check_comparable(const Image& test, const std::string& test_name, const Image& reference,
                       const std::string& reference_name);
 
-// Both linear; needs what check_comparable checks. About 1 s a million pixels and core, for radiance as often as it has
+// Both linear; needs what check_comparable checks. About 3 s a million pixels and core, for radiance as often as it has
 // exposures.
 ImageError measure_error(const Image& test, const Image& reference, const ImageErrorParams& params = {});
 

@@ -12,6 +12,16 @@ namespace {
 
 constexpr int kPictureWidth = 1024;
 
+// Pixels with more than this share of the light are parted, where the light is not constant within them.
+constexpr double kPartedShare = 1e-3;
+constexpr int kParts = 32;  // a side
+// The share of a parted pixel that is spread evenly, for what parts' middles do not see.
+constexpr double kEvenShare = 0.02;
+
+double brightness(Rgb c) {
+  return (std::abs(c.r) + std::abs(c.g) + std::abs(c.b)) / 3;
+}
+
 // Turns weights[1 …] into sums of what is before them over the sum of all; evenly spread where they are all 0.
 // weights[0] is 0 before and after. Returns the sum.
 double accumulate(std::span<float> weights) {
@@ -39,6 +49,11 @@ Place find(std::span<const float> sums, double u) {
   return {static_cast<std::size_t>(above - sums.begin()) - 1, std::clamp((u - from) / (to - from), 0.0, 1.0)};
 }
 
+// How much denser than evenly one of the parts is sampled.
+double part_density(std::span<const float> sums, std::size_t i) {
+  return kParts * (double{sums[i + 1]} - double{sums[i]});
+}
+
 }  // namespace
 
 LightSampler::LightSampler(const Light& light, int threads) {
@@ -64,6 +79,47 @@ LightSampler::LightSampler(const Light& light, int threads) {
   for (std::size_t row = 0; row < sums.size(); ++row)
     rows_[row + 1] = static_cast<float>(total > 0 ? sums[row] / total : solid_angle(static_cast<int>(row)));
   accumulate(rows_);
+
+  const auto* image = dynamic_cast<const ImageLight*>(&light);
+  if (total == 0 || (image && image->environment().layout == Layout::kLatLong)) return;
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x)
+      if (probability(x, y) > kPartedShare)
+        parted_.push_back(
+            part(light, static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x),
+                 brightness(picture.rgb(x, y))));
+}
+
+LightSampler::Parted LightSampler::part(const Light& light, std::size_t pixel, double mean) const {
+  const double left = static_cast<double>(pixel % static_cast<std::size_t>(width_));
+  const double top = static_cast<double>(pixel / static_cast<std::size_t>(width_));
+  Parted parted{pixel, std::vector<float>(kParts + 1), std::vector<float>((kParts + 1) * kParts)};
+  for (std::size_t j = 0; j < kParts; ++j) {
+    const std::span<float> weights = std::span(parted.columns).subspan((kParts + 1) * j, kParts + 1);
+    for (std::size_t i = 0; i < kParts; ++i) {
+      const Vec3d middle =
+          direction(left + (static_cast<double>(i) + 0.5) / kParts, top + (static_cast<double>(j) + 0.5) / kParts);
+      weights[i + 1] = static_cast<float>(brightness(light.radiance(middle)) + kEvenShare * mean);
+    }
+    parted.rows[j + 1] = static_cast<float>(accumulate(weights));
+  }
+  accumulate(parted.rows);
+  return parted;
+}
+
+const LightSampler::Parted* LightSampler::find_parted(std::size_t pixel) const {
+  const auto found = std::ranges::lower_bound(parted_, pixel, {}, &Parted::pixel);
+  return found != parted_.end() && found->pixel == pixel ? &*found : nullptr;
+}
+
+Vec3d LightSampler::direction(double x, double y) const {
+  // Uniform in a pixel's solid angle: in the azimuth and in the height above the horizon.
+  const double row = std::min(std::floor(y), height_ - 1.0);
+  const double azimuth = 2 * std::numbers::pi * (x / width_ - 0.5);
+  const double height =
+      std::lerp(std::cos(std::numbers::pi * row / height_), std::cos(std::numbers::pi * (row + 1) / height_), y - row);
+  const double radius = std::sqrt(std::max(0.0, 1 - height * height));
+  return {radius * std::sin(azimuth), height, -radius * std::cos(azimuth)};
 }
 
 double LightSampler::solid_angle(int y) const {
@@ -78,23 +134,38 @@ double LightSampler::probability(int x, int y) const {
 }
 
 LightSampler::Sample LightSampler::sample(double u, double v) const {
-  const Place row = find(rows_, v);
+  Place row = find(rows_, v);
   const std::size_t stride = static_cast<std::size_t>(width_) + 1;
-  const Place column = find(std::span(columns_).subspan(stride * row.index, stride), u);
+  Place column = find(std::span(columns_).subspan(stride * row.index, stride), u);
   const int x = static_cast<int>(column.index), y = static_cast<int>(row.index);
-  // Uniform in the pixel's solid angle: in the azimuth and in the height above the horizon.
-  const double azimuth = 2 * std::numbers::pi * ((x + column.fraction) / width_ - 0.5);
-  const double height =
-      std::lerp(std::cos(std::numbers::pi * y / height_), std::cos(std::numbers::pi * (y + 1) / height_), row.fraction);
-  const double radius = std::sqrt(std::max(0.0, 1 - height * height));
-  return {{radius * std::sin(azimuth), height, -radius * std::cos(azimuth)}, probability(x, y) / solid_angle(y)};
+  double pdf = probability(x, y) / solid_angle(y);
+  if (const Parted* parted = find_parted(row.index * static_cast<std::size_t>(width_) + column.index)) {
+    // What is left of both numbers chooses a part.
+    row = find(parted->rows, row.fraction);
+    const auto of_row = std::span(parted->columns).subspan((kParts + 1) * row.index, kParts + 1);
+    column = find(of_row, column.fraction);
+    pdf *= part_density(parted->rows, row.index) * part_density(of_row, column.index);
+    row.fraction = (static_cast<double>(row.index) + row.fraction) / kParts;
+    column.fraction = (static_cast<double>(column.index) + column.fraction) / kParts;
+  }
+  return {direction(x + column.fraction, y + row.fraction), pdf};
 }
 
 double LightSampler::pdf(Vec3d direction) const {
   const ImagePoint p = point_of(Layout::kLatLong, direction);
   const int x = std::clamp(static_cast<int>(p.u * width_), 0, width_ - 1);
   const int y = std::clamp(static_cast<int>(p.v * height_), 0, height_ - 1);
-  return probability(x, y) / solid_angle(y);
+  const double pdf = probability(x, y) / solid_angle(y);
+  const Parted* parted =
+      find_parted(static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
+  if (!parted) return pdf;
+  const double top = std::cos(std::numbers::pi * y / height_), bottom = std::cos(std::numbers::pi * (y + 1) / height_);
+  const auto part_of = [](double fraction) {
+    return static_cast<std::size_t>(std::clamp(static_cast<int>(fraction * kParts), 0, kParts - 1));
+  };
+  const std::size_t i = part_of(p.u * width_ - x), j = part_of((top - direction.y) / (top - bottom));
+  return pdf * part_density(parted->rows, j) *
+         part_density(std::span(parted->columns).subspan((kParts + 1) * j, kParts + 1), i);
 }
 
 }  // namespace shlight
