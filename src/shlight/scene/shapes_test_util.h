@@ -44,7 +44,7 @@ inline Mesh make_square() {
 inline Scene make_test_scene(const Mesh& mesh, Vec3f base_color = {1, 1, 1}, const Mat4f& to_world = kIdentity) {
   Scene scene;
   scene.meshes = {mesh};
-  scene.materials = {{"", base_color, {}}};
+  scene.materials = {{"", base_color, {}, {}}};
   scene.instances = {{0, to_world}};
   return scene;
 }

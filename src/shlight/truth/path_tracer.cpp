@@ -1,16 +1,21 @@
 #include "shlight/truth/path_tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <numbers>
 #include <optional>
 #include <vector>
 
+#include "shlight/brdf/metallic_roughness.h"
 #include "shlight/core/assert.h"
 #include "shlight/core/parallel.h"
+#include "shlight/scene/tangents.h"
+#include "shlight/scene/transform.h"
 #include "shlight/transfer/contacts.h"
 #include "shlight/transfer/hemisphere_samples.h"
 #include "shlight/transfer/local_frame.h"
@@ -104,12 +109,24 @@ class TurnedLight {
 
 // --- the scene
 
+// A material that is glossy: linear in its base colour, and so known from what black and white do.
+struct Gloss {
+  std::unique_ptr<Brdf> black, white;
+
+  Rgb eval(Rgb base_color, Vec3d s, Vec3d v) const {
+    const Rgb of_black = black->eval(s, v);
+    return of_black + base_color * (white->eval(s, v) - of_black);
+  }
+};
+
 // Where a path is reflected.
 struct Reflection {
-  Vec3f origin;  // of the rays that leave it
-  Vec3d normal;  // unit, on the side that reflects; zero where vertices' normals cancel each other
+  Vec3f origin;   // of the rays that leave it
+  Vec3d normal;   // unit, on the side that reflects; zero where vertices' normals cancel each other
+  Vec3d tangent;  // zero where nobody asks for one
   Rgb reflectance;
-  Vec3d to_eye;  // unit, back along the path
+  Vec3d to_eye;                  // unit, back along the path
+  const Gloss* gloss = nullptr;  // of the material; none: Lambertian
 };
 
 class TracedScene {
@@ -120,6 +137,10 @@ class TracedScene {
         tracer_((params.make_tracer ? params.make_tracer : make_embree_tracer)(world_.positions, world_.indices)),
         sites_(make_sites(world_, params.threads)) {
     place_origins(world_, params.threads, sites_);
+    if (params.brdf)
+      add_tangents(scene);
+    else if (params.gloss)
+      add_gloss(scene);
   }
 
   const Tracer& tracer() const { return *tracer_; }
@@ -135,25 +156,58 @@ class TracedScene {
 
  private:
   Reflection reflection(const SurfacePoint& point, Vec3f direction, bool is_back) const {
-    Vec3f position, origin, normal;
+    Vec3f position, origin, normal, tangent;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = point.vertices[k];
       position = position + point.weights[k] * world_.positions[v];
       origin = origin + point.weights[k] * sites_.origins[sites_.of_vertex[v]];
       normal = normal + point.weights[k] * world_.normals[v];
+      if (!tangents_.empty()) tangent = tangent + point.weights[k] * tangents_[v];
     }
     const Vec3f& r = point.reflectance;
     const Vec3d n = unit(vec_cast<double>(normal));
     return {is_back ? position - (origin - position) : origin,
             is_back ? -n : n,
+            vec_cast<double>(tangent),
             {r.x, r.y, r.z},
-            -unit(vec_cast<double>(direction))};
+            -unit(vec_cast<double>(direction)),
+            gloss_at(point.vertices[0])};
+  }
+
+  void add_gloss(const Scene& scene) {
+    std::vector<const Gloss*> of_material;
+    for (const Material& material : scene.materials) {
+      of_material.push_back(nullptr);
+      if (!material.gloss) continue;
+      const auto make = [&](double base) {
+        return make_metallic_roughness({base, base, base}, material.gloss->metallic, material.gloss->roughness);
+      };
+      of_material.back() = glosses_.emplace_back(std::make_unique<Gloss>(Gloss{make(0), make(1)})).get();
+    }
+    if (glosses_.empty()) return;
+    for (const Instance& instance : scene.instances)
+      gloss_of_instance_.push_back(of_material[scene.meshes[instance.mesh].material]);
+  }
+
+  const Gloss* gloss_at(std::uint32_t vertex) const {
+    if (gloss_of_instance_.empty()) return nullptr;
+    const auto next = std::ranges::upper_bound(world_.first_vertex, std::size_t{vertex});
+    return gloss_of_instance_[static_cast<std::size_t>(next - world_.first_vertex.begin()) - 1];
+  }
+
+  void add_tangents(const Scene& scene) {
+    for (const Instance& instance : scene.instances)
+      for (const Vec3f& tangent : make_tangents(scene.meshes[instance.mesh]))
+        tangents_.push_back(transform_vector(instance.to_world, tangent));
   }
 
   WorldMesh world_;
   Surfaces surfaces_;
   std::unique_ptr<Tracer> tracer_;
   Sites sites_;
+  std::vector<Vec3f> tangents_;  // of the world's vertices, of any length; empty where nobody asks for them
+  std::vector<std::unique_ptr<Gloss>> glosses_;
+  std::vector<const Gloss*> gloss_of_instance_;  // empty where nothing is glossy
 };
 
 // --- paths
@@ -203,11 +257,21 @@ Ray make_ray(Vec3f origin, Vec3d direction) {
   return ray;
 }
 
-// How a surface reflects at a point: Lambert's way, f = ρ/π, or by a model of all surfaces.
+// How a surface reflects at a point: Lambert's way, f = ρ/π, by its gloss, or by a model of all surfaces.
 class Reflector {
  public:
   Reflector(const Reflection& at, const Brdf* brdf)
-      : at_(at), brdf_(brdf), frame_(make_local_frame(at.normal, 0)), to_eye_(to_local(at.to_eye)) {}
+      : at_(at),
+        brdf_(brdf),
+        sampled_(brdf       ? brdf
+                 : at.gloss ? at.gloss->white.get()
+                            : nullptr) {
+    if (!sampled_) return;
+    to_eye_ = to_local(at.to_eye);
+    // What an interpolated normal turns away from the eye is seen from the horizon, nearly.
+    constexpr double kLeastHeight = 1e-3;
+    if (to_eye_.z < kLeastHeight) to_eye_ = unit({to_eye_.x, to_eye_.y, kLeastHeight});
+  }
 
   // f cos of a direction to the light, and the density with which `sample` draws it, per steradian.
   struct Value {
@@ -217,25 +281,35 @@ class Reflector {
   Value eval(Vec3d direction) const {
     const double cosine = dot(at_.normal, direction);
     if (!(cosine > 0)) return {};
-    if (!brdf_) return {cosine / std::numbers::pi * at_.reflectance, cosine / std::numbers::pi};
-    if (!(to_eye_.z > 0)) return {};
+    if (!sampled_) return {cosine / std::numbers::pi * at_.reflectance, cosine / std::numbers::pi};
     const Vec3d s = to_local(direction);
-    return {cosine * brdf_->eval(s, to_eye_), sample_brdf_pdf(*brdf_, s, to_eye_)};
+    const Rgb f = brdf_ ? brdf_->eval(s, to_eye_) : at_.gloss->eval(at_.reflectance, s, to_eye_);
+    return {cosine * f, sample_brdf_pdf(*sampled_, s, to_eye_)};
   }
 
   // A unit direction, which may lie below the horizon.
   Vec3d sample(PathSamples::Point point, double lobe) const {
-    const Vec3d s = brdf_ && to_eye_.z > 0 ? sample_brdf(*brdf_, to_eye_, lobe, point.x, point.y)
-                                           : lift_to_hemisphere(point.x, point.y);
-    return unit(s.x * frame_.x + s.y * frame_.y + s.z * frame_.z);
+    const Vec3d s =
+        sampled_ ? sample_brdf(*sampled_, to_eye_, lobe, point.x, point.y) : lift_to_hemisphere(point.x, point.y);
+    return unit(s.x * frame_[0] + s.y * frame_[1] + s.z * frame_[2]);
   }
 
  private:
-  Vec3d to_local(Vec3d v) const { return {dot(frame_.x, v), dot(frame_.y, v), dot(frame_.z, v)}; }
+  using Axes = std::array<Vec3d, 3>;
+
+  // Along the tangent, as far as it lies in the surface; any way where it does not.
+  static Axes make_frame(const Reflection& at) {
+    const Vec3d n = at.normal, x = unit(at.tangent - dot(at.tangent, n) * n);
+    if (x != Vec3d{}) return {x, cross(n, x), n};
+    const LocalFrame frame = make_local_frame(n, 0);
+    return {frame.x, frame.y, frame.z};
+  }
+  Vec3d to_local(Vec3d v) const { return {dot(frame_[0], v), dot(frame_[1], v), dot(frame_[2], v)}; }
 
   const Reflection& at_;
-  const Brdf* brdf_;
-  LocalFrame frame_;
+  const Brdf* brdf_;     // of all surfaces
+  const Brdf* sampled_;  // whose density directions have; none: the cosine's
+  Axes frame_ = make_frame(at_);
   Vec3d to_eye_;
 };
 

@@ -28,8 +28,8 @@
 //
 // Surfaces are what they are to the baker: the side where normals point is lit and reflects, both sides stop light, and
 // of pairs of triangles that face away from each other each is its own side. Where the camera sees a surface from
-// behind, it sees it lit from there, as the irradiance method draws it. A BRDF reflects nothing to an eye below the
-// interpolated normal's horizon.
+// behind, it sees it lit from there, as the irradiance method draws it. An eye below the interpolated normal's
+// horizon sees a BRDF as from the horizon.
 //
 // Lights that are coefficients may be negative in some directions, and so may then be a pixel: nothing is clamped.
 //
@@ -49,10 +49,11 @@ struct PathTraceParams {
   TransferKind transfer = TransferKind::kInterreflected;
   int bounces = 3;    // of light between surfaces, kInterreflected only, 0 … 64
   int samples = 256;  // paths a pixel, 1 … kMaxPathSamples, rounded up to a multiple of kReplicates
-  // How all surfaces reflect, instead of their own colours: ρ/π above becomes f_r(s, v). Its frame's x, about which
-  // only anisotropic models care, is make_local_frame(n, 0)'s: along the meridian about +Z, away from +Z. Outlives the
-  // call.
+  // How all surfaces reflect, instead of their own colours: ρ/π above becomes f_r(s, v). Its frame's x is
+  // make_tangents' tangent. Outlives the call.
   const Brdf* brdf = nullptr;
+  // Whether materials that have gloss show it; irradiance and transfer take only their colours. Without `brdf`.
+  bool gloss = false;
   bool show_background = true;
   std::uint64_t seed = 1;  // other seeds give other errors of the same size
   int threads = 0;         // at most; 0: all there are. The result has the same bits with any number

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "shlight/brdf/make_brdf.h"
+#include "shlight/brdf/metallic_roughness.h"
 #include "shlight/core/error.h"
 #include "shlight/light/light.h"
 #include "shlight/scene/builtin_scene.h"
@@ -235,28 +236,41 @@ TEST(PathTracer, BacksAreLitFromTheirSide) {
     }
 }
 
-// Each pixel of a plane sees one direction of the eye; brute force has its radiance.
-TEST(PathTracer, BrdfsAgreeWithBruteForce) {
+// A plane, nearly every point of which is seen from one direction, by its radiance as brute force has it.
+void expect_brute_force(const Scene& scene, const Brdf* of_all, const Brdf& expected, const std::string& where) {
   const auto light = load_light("builtin:studio").light;
-  for (const char* material : {"oren-nayar:rho=0.8,sigma=0.6", "ward:rd=0.2,rs=0.3,sigma=0.2",
-                               "ward-aniso:rd=0.1,rs=0.3,sx=0.15,sy=0.5", "cook-torrance:m=0.25,f0=0.9"}) {
+  PathTraceParams params = small_picture(TransferKind::kShadowed, 256);
+  params.width = params.height = 12;
+  params.camera = {40, 25, 200, 1};
+  params.brdf = of_all;
+  params.gloss = true;
+  const PathTraceResult result = trace_paths(scene, *light, params);
+  // Toward the eye, from the middle of the picture; over the rest the direction changes by half a degree, the more and
+  // the less of which cancel.
+  constexpr double kViewTolerance = 1e-3;
+  const double azimuth = 40 * std::numbers::pi / 180, elevation = 25 * std::numbers::pi / 180;
+  const Vec3d eye = {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                     std::cos(elevation) * std::cos(azimuth)};
+  BruteForceParams brute_force;
+  brute_force.tolerance = 1e-4;
+  const double radiance = reference_radiance(*light, expected, {}, eye, brute_force).value.g;
+  expect_mean(summarize(result, [&](int, int) { return radiance; }), kViewTolerance, where);
+}
+
+// The square's u grows toward +X: the axes of its frame are the world's.
+TEST(PathTracer, BrdfsAgreeWithBruteForce) {
+  for (const char* material :
+       {"oren-nayar:rho=0.8,sigma=0.6", "ward-aniso:rd=0.1,rs=0.3,sx=0.15,sy=0.5", "cook-torrance:m=0.25,f0=0.9"}) {
     const auto brdf = make_brdf(material);
-    PathTraceParams params = small_picture(TransferKind::kShadowed, 256);
-    params.width = params.height = 12;
-    params.camera = {40, 25, 200, 1};
-    params.brdf = brdf.get();
-    const PathTraceResult result = trace_paths(make_test_scene(make_square()), *light, params);
-    // Toward the eye, from the middle of the picture; over the rest the direction changes by half a degree,
-    // the more and the less of which cancel.
-    constexpr double kViewTolerance = 1e-3;
-    const double azimuth = 40 * std::numbers::pi / 180, elevation = 25 * std::numbers::pi / 180;
-    const Vec3d eye = {std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
-                       std::cos(elevation) * std::cos(azimuth)};
-    BruteForceParams brute_force;
-    brute_force.tolerance = 1e-4;
-    const Rgb expected = reference_radiance(*light, *brdf, {}, eye, brute_force).value;
-    expect_mean(summarize(result, [&](int, int) { return expected.g; }), kViewTolerance, material);
+    expect_brute_force(make_test_scene(make_square()), brdf.get(), *brdf, material);
   }
+}
+
+TEST(PathTracer, GlossOfMaterialsAgreesWithBruteForce) {
+  Scene scene = make_test_scene(make_square(), {0.7f, 0.6f, 0.2f});
+  scene.materials[0].gloss = MetallicRoughness{0.3f, 0.5f};
+  const auto brdf = make_metallic_roughness({0.7, 0.6, 0.2}, 0.3, 0.5);
+  expect_brute_force(scene, nullptr, *brdf, "metallic-roughness");
 }
 
 // A model of the surfaces that is Lambert's is their own.
