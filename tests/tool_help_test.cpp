@@ -12,7 +12,8 @@ class ToolHelp : public ToolTest {};
 TEST_F(ToolHelp, EveryCommandHasAnExample) {
   const ToolRun program = run({"--help"});
   EXPECT_EQ(program.err, "");
-  for (const std::string command : {"project", "project-brdf", "render", "bake", "info", "demo", "convert-map"}) {
+  for (const std::string command :
+       {"project", "project-brdf", "render", "bake", "info", "demo", "convert-map", "compare"}) {
     EXPECT_NE(program.out.find("\n  " + command + " "), std::string::npos) << program;
     const ToolRun help = run({command, "--help"});
     EXPECT_EQ(help.err, "");
@@ -55,6 +56,9 @@ TEST_F(ToolHelp, WrongUsageIsExplained) {
         {{"info", "builtin:sky", "--max-pixels", "0"}, "--max-pixels"},
         {{"info", "builtin:sky", "--clamp", "0"}, "--clamp: '0' is no number from"},
         {{"info", "builtin:sky", "--clamp", "nan"}, "--clamp: 'nan' is no number from"},
+        {{"compare", png}, "B is required"},
+        {{"compare", png, png, "-o", path("a.exr")}, "a.exr' does not end in .png"},
+        {{"compare", png, png, "--max-flip", "nan"}, "--max-flip: 'nan' is no number from"},
         {{"render", "-o", path("a.jpg")}, "a.jpg' ends neither in .png nor in .exr"},
         {{"render", "-o", png, "--size", "0x0"}, "'0x0' is no size such as 1280x720"},
         {{"render", "-o", png, "--size", "640x480x3"}, "'640x480x3' is no size"},
@@ -67,7 +71,7 @@ TEST_F(ToolHelp, WrongUsageIsExplained) {
         {{"render", "-o", png, "--frames", "0"}, "--frames: Value 0 not in range 1 to"},
         {{"render", "-o", png, "--exposure", "inf"}, "'inf' is no number from -60 to 60"},
         {{"render", "-o", png, "--rotate-light", "nan"}, "'nan' is no number from -36000 to 36000"},
-        {{"render", "-o", png, "--method", "magic"}, "--method: magic not in {irradiance,transfer}"},
+        {{"render", "-o", png, "--method", "magic"}, "--method: magic not in {irradiance,transfer,reference}"},
         {{"render", "-o", png, "--transfer", "shadowed"}, "--transfer: only with --method transfer"},
         {{"render", "-o", png, "--samples", "64"}, "--samples: only with --method transfer"},
         {{"render", "-o", png, "--method", "irradiance", "--bounces", "2"}, "--bounces: only with --method transfer"},

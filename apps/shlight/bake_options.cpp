@@ -22,19 +22,15 @@ std::string parse_samples(const std::string& text, int& samples) {
 
 }  // namespace
 
-const char* transfer_kind_name(TransferKind kind) {
-  return kind == TransferKind::kCosine ? "cosine" : kind == TransferKind::kShadowed ? "shadowed" : "interreflected";
-}
-
 void add_bake_options(CLI::App& command, BakeParams& params) {
   std::map<std::string, TransferKind> kinds;
   for (const TransferKind kind : {TransferKind::kCosine, TransferKind::kShadowed, TransferKind::kInterreflected})
-    kinds.emplace(transfer_kind_name(kind), kind);
+    kinds.emplace(to_text(kind), kind);
   command
       .add_option("--transfer", params.kind, "What is baked: no shadows, shadows, or those and light between surfaces")
       ->transform(CLI::CheckedTransformer(kinds).description(""))
       ->type_name("cosine|shadowed|interreflected")
-      ->default_str(transfer_kind_name(params.kind));
+      ->default_str(std::string(to_text(params.kind)));
   command
       .add_option_function<std::string>(
           "--samples",
@@ -68,7 +64,7 @@ Transfer bake_aloud(const std::string& model, const Scene& scene, const BakePara
       bake_transfer(scene, params, [&bar](const BakeStatus& status) { return bar(status.fraction_done); });
   report_progress(bar, 1);
   spdlog::info("{}: {} transfer of {} vertices, {} bands, {:.3g} million rays in {:.3g} s", model,
-               transfer_kind_name(transfer.kind), transfer.num_vertices(), transfer.bands,
+               to_text(transfer.kind), transfer.num_vertices(), transfer.bands,
                1e-6 * static_cast<double>(transfer.rays), transfer.seconds);
   return transfer;
 }

@@ -27,6 +27,7 @@ void add_bake(CLI::App& program, Run& run);
 void add_info(CLI::App& program, Run& run);
 void add_demo(CLI::App& program, Run& run);
 void add_convert_map(CLI::App& program, Run& run);
+void add_compare(CLI::App& program, Run& run);
 
 // The help of a LIGHT argument, and of a MODEL.
 extern const char* const kLightHelp;
@@ -65,7 +66,6 @@ nlohmann::ordered_json json_of_sun(const Sun& sun, Rgb all);
 // for, to be called when the command line is parsed.
 void add_bake_options(CLI::App& command, BakeParams& params);
 void check_bake_options(const CLI::App& command, const BakeParams& params);
-const char* transfer_kind_name(TransferKind kind);
 
 // "16 bits", "64 clusters of 7 components".
 std::string describe_storage(const BakeInfo& info);

@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   shlight::app::add_info(program, run);
   shlight::app::add_demo(program, run);
   shlight::app::add_convert_map(program, run);
+  shlight::app::add_compare(program, run);
 
   const auto fail = [&](std::string text) {
     // One line, whatever the name of a file holds.

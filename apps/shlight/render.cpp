@@ -1,37 +1,15 @@
-#include "shlight/render/render.h"
+#include "render.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
-#include <algorithm>
+#include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
-#include <numbers>
+#include <memory>
 
-#include "command.h"
-#include "shlight/core/error.h"
-#include "shlight/core/file.h"
-#include "shlight/render/context.h"
-#include "shlight/scene/load_scene.h"
-#include "shlight/transfer/baked_file.h"
+#include "shlight/brdf/make_brdf.h"
 
 namespace shlight::app {
 namespace {
-
-struct RenderArguments {
-  std::string model = "builtin:scene";
-  std::string light = "builtin:sky";
-  LoadLightParams load;
-  LightShape shape;
-  double rotate_light = 0;  // degrees about +Y
-  std::string method = "irradiance";
-  BakeParams bake;  // --method transfer
-  bool kind_given = false, samples_given = false, bounces_given = false, bands_given = false;
-  RenderParams params;
-  std::filesystem::path output;
-  bool no_background = false;
-  bool json = false;
-};
 
 // "WxH"
 std::string parse_size(const std::string& text, RenderParams& params) {
@@ -52,103 +30,33 @@ std::string parse_camera(const std::string& text, Camera& camera) {
   return good ? "" : "'" + text + "' is no camera: azimuth, elevation (-90 to 90) in degrees, zoom (0.01 to 100)";
 }
 
-// What a baked file holds, or what is baked now, and what there is to say of it in JSON.
-struct TransferToDraw {
-  Baked baked;
-  nlohmann::ordered_json json;
-};
-
-// The file as it was baked; refuses options that ask for another bake.
-TransferToDraw load_transfer(const RenderArguments& arguments) {
-  TransferToDraw result = {load_baked(arguments.model), {}};
-  const auto& [scene, transfer, info] = result.baked;
-  const std::string accepted = "what it holds, or the model that it was baked from (" + info.model + ")";
-  if (arguments.kind_given && arguments.bake.kind != transfer.kind)
-    throw Error(arguments.model,
-                fmt::format("holds {} transfer, not {}", to_text(transfer.kind), to_text(arguments.bake.kind)),
-                accepted);
-  if (arguments.samples_given && arguments.bake.samples != info.params.samples)
-    throw Error(arguments.model, "is baked already: --samples cannot change it", accepted);
-  if (arguments.bounces_given && arguments.bake.bounces != info.params.bounces)
-    throw Error(arguments.model, "is baked already: --bounces cannot change it", accepted);
-  if (arguments.bands_given && arguments.params.bands > transfer.bands)
-    throw Error(arguments.model, fmt::format("holds {} bands and not {}", transfer.bands, arguments.params.bands),
-                fmt::format("--bands 1 to {}", transfer.bands));
-  spdlog::info("{}: {} transfer of {} vertices, {} bands, {}, baked from {}", arguments.model, to_text(transfer.kind),
-               transfer.num_vertices(), transfer.bands, describe_storage(info), info.model);
-  result.json = {
-      {"transfer", to_text(transfer.kind)}, {"vertices", transfer.num_vertices()}, {"baked_bands", transfer.bands}};
-  return result;
-}
-
-TransferToDraw bake_now(const RenderArguments& arguments, Scene scene) {
-  BakeParams params = arguments.bake;
-  params.bands = arguments.params.bands;
-  TransferToDraw result;
-  const Transfer& transfer = result.baked.transfer = bake_aloud(arguments.model, scene, params);
-  result.baked.scene = std::move(scene);
-  result.json = {
-      {"transfer", to_text(transfer.kind)},
-      {"vertices", transfer.num_vertices()},
-      {"bake_seconds", transfer.seconds},
-      {"rays", transfer.rays},
-      {"rays_per_second", transfer.seconds > 0 ? static_cast<double>(transfer.rays) / transfer.seconds : 0.0}};
-  return result;
-}
-
-Scene load_model(const std::string& model) {
-  Scene scene = make_scene(model);
-  for (const std::string& warning : scene.warnings) spdlog::warn("{}: {}", model, warning);
-  return scene;
-}
-
-void run_render(const RenderArguments& arguments) {
-  const bool transfer = arguments.method == "transfer";
-  const bool is_baked = transfer && is_baked_file(arguments.model);
-  TransferToDraw drawn;
-  if (is_baked)
-    drawn = load_transfer(arguments);
-  else
-    drawn.baked.scene = load_model(arguments.model);
-  const LoadedLight loaded = load_light_aloud(arguments.light, arguments.load);
-
-  RenderParams params = arguments.params;
-  if (is_baked && !arguments.bands_given) params.bands = std::min(drawn.baked.transfer.bands, kMaxRenderBands);
-  params.show_background = !arguments.no_background;
-  params.rotate_light = rotation_about_y(arguments.rotate_light * std::numbers::pi / 180) * arguments.shape.rotation;
-  RenderLight light = make_render_light(*loaded.light, params.bands);
-  light.coefficients = apply_window(arguments.shape, light.coefficients);
-  std::filesystem::path output = arguments.output;
-  if (output.empty() && !arguments.json) output = "render.png";
-
-  if (transfer && !is_baked) {
-    // What can fail at once is not to fail after minutes of baking.
-    if (!output.empty()) check_writable(output);
-    { const HeadlessContext can_draw; }
-    drawn = bake_now(arguments, std::move(drawn.baked.scene));
-  }
-  const Scene& scene = drawn.baked.scene;
-  const RenderResult result = transfer ? render_baked(drawn.baked, light, params, progress_bar("drawing"))
-                                       : render_irradiance(scene, light, params, progress_bar("drawing"));
-
-  if (output.extension() == ".exr")
-    save_image(output, result.radiance);
-  else if (!output.empty())
-    save_image8(output, result.picture);
-  if (!output.empty())
-    spdlog::info("{}: {} x {}, {} triangles, {:.1f} ms a frame on {}", output.string(), params.width, params.height,
-                 num_triangles(scene), result.frame_ms, result.gl_renderer);
-  if (arguments.json) {
-    nlohmann::ordered_json json = {{"frame_ms", result.frame_ms},
-                                   {"width", params.width},
-                                   {"height", params.height},
-                                   {"triangles", num_triangles(scene)},
-                                   {"gl_renderer", result.gl_renderer},
-                                   {"method", arguments.method},
-                                   {"bands", params.bands}};
-    json.update(drawn.json);
-    print_json(json);
-  }
+// Which options go together; fills in what depends on others.
+void check_render_options(const CLI::App& command, RenderArguments& arguments) {
+  const auto given = [&](const char* option) { return command.count(option) > 0; };
+  if (given("--material") && !given("--method")) arguments.method = "reflectance";
+  const std::string& method = arguments.method;
+  const bool is_reference = method == "reference", is_reflectance = method == "reflectance";
+  for (const char* option : {"--transfer", "--samples", "--bounces"})
+    if (given(option) && method != "transfer" && !is_reference)
+      throw CLI::ValidationError(option, "only with --method transfer or reference");
+  for (const char* option : {"--bands", "--window", "--mark-negative", "--frames"})
+    if (given(option) && is_reference) throw CLI::ValidationError(option, "not with --method reference");
+  for (const char* option : {"--deviation", "--gloss"})
+    if (given(option) && !is_reference) throw CLI::ValidationError(option, "only with --method reference");
+  if (given("--material") && !is_reflectance && !is_reference)
+    throw CLI::ValidationError("--material", "only with --method reflectance or reference");
+  if (given("--material") && arguments.gloss)
+    throw CLI::ValidationError("--gloss", "not with --material, which takes the place of the model's own materials");
+  if (given("--shade") && !is_reflectance) throw CLI::ValidationError("--shade", "only with --method reflectance");
+  if (given("--bounces") && is_reference && arguments.bake.kind != TransferKind::kInterreflected)
+    throw CLI::ValidationError("--bounces", "only with --transfer interreflected");
+  if (!is_reference) check_bake_options(command, arguments.bake);
+  arguments.kind_given = given("--transfer");
+  arguments.samples_given = given("--samples");
+  arguments.bounces_given = given("--bounces");
+  arguments.bands_given = given("--bands");
+  // What is not diffuse needs more.
+  if (is_reflectance && !arguments.bands_given) arguments.params.bands = 5;
 }
 
 }  // namespace
@@ -164,15 +72,27 @@ void add_render(CLI::App& program, Run& run) {
   command
       ->add_option("--bands", params.bands,
                    "Bands of the light's coefficients; of a baked file, if not given, all of its bands")
-      ->capture_default_str()
+      ->default_str("3, of reflectance 5")
       ->check(CLI::Range(1, kMaxRenderBands).description(fmt::format("1 to {}", kMaxRenderBands)));
   command
       ->add_option("--method", arguments->method,
-                   "How the model is lit: by its normals, or by what is baked for each vertex: now (--transfer), or "
-                   "before where MODEL is a file of shlight bake")
-      ->type_name("irradiance|transfer")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"irradiance", "transfer"}).description(""));
+                   "How the model is lit: by its normals; by what is baked for each vertex, now (--transfer) or before "
+                   "where MODEL is a file of shlight bake; by how its materials or --material reflect; or path traced "
+                   "without spherical harmonics, what the others approximate (--transfer, --samples a pixel)")
+      ->type_name("irradiance|transfer|reflectance|reference")
+      ->default_str("irradiance, with --material reflectance")
+      ->check(CLI::IsMember({"irradiance", "transfer", "reflectance", "reference"}).description(""));
+  command
+      ->add_option("--material", arguments->material,
+                   "How all surfaces reflect, instead of their own materials, for instance cook-torrance:m=0.3,f0=0.9")
+      ->type_name("MATERIAL");
+  command->add_option("--shade", params.shade, "Where reflectance is found: at each pixel, or at each vertex, quicker")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, Shade>{{"pixel", Shade::kPixel}, {"vertex", Shade::kVertex}})
+              .description(""))
+      ->type_name("pixel|vertex")
+      ->default_str("pixel");
+  command->add_flag("--gloss", arguments->gloss, "Show the gloss of the model's own materials by --method reference");
   arguments->bake.kind = TransferKind::kInterreflected;
   add_bake_options(*command, arguments->bake);
   command
@@ -215,21 +135,25 @@ void add_render(CLI::App& program, Run& run) {
             return extension == ".png" || extension == ".exr" ? "" : "'" + name + "' ends neither in .png nor in .exr";
           },
           ""));
+  command->add_option("--deviation", arguments->deviation, "Write how noisy each pixel of --method reference is")
+      ->type_name("FILE.exr")
+      ->check(CLI::Validator(
+          [](std::string& name) {
+            return std::filesystem::path(name).extension() == ".exr" ? "" : "'" + name + "' does not end in .exr";
+          },
+          ""));
   command->add_flag("--json", arguments->json, "Print the time of a frame and more on stdout");
   command->footer(
       "Examples:\n  shlight render skull.x --light venice.hdr -o picture.png\n"
       "  shlight render builtin:knot --light builtin:studio --bands 5 --camera 20,10,1.2 -o knot.png\n"
       "  shlight render builtin:scene --method transfer --transfer shadowed --bands 5 -o shadows.png\n"
-      "  shlight render statue.glb --method transfer --light builtin:studio -o statue.png   (of shlight bake)");
+      "  shlight render statue.glb --method transfer --light builtin:studio -o statue.png   (of shlight bake)\n"
+      "  shlight render builtin:knot --material ggx:alpha=0.3,f0=0.9/0.6/0.2 --light builtin:studio -o gold.png\n"
+      "  shlight render builtin:scene --method reference --transfer shadowed --samples 64 --size 320x180 -o truth.exr\n"
+      "\nMATERIAL is one of\n" +
+      describe_brdf_models());
   command->callback([arguments, command, &run] {
-    for (const char* option : {"--transfer", "--samples", "--bounces"})
-      if (command->count(option) > 0 && arguments->method != "transfer")
-        throw CLI::ValidationError(option, "only with --method transfer");
-    check_bake_options(*command, arguments->bake);
-    arguments->kind_given = command->count("--transfer") > 0;
-    arguments->samples_given = command->count("--samples") > 0;
-    arguments->bounces_given = command->count("--bounces") > 0;
-    arguments->bands_given = command->count("--bands") > 0;
+    check_render_options(*command, *arguments);
     run = [arguments] { run_render(*arguments); };
   });
 }

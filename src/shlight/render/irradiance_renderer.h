@@ -1,8 +1,8 @@
 #pragma once
 
-#include "shlight/render/camera.h"
 #include "shlight/render/gl.h"
 #include "shlight/render/gpu_scene.h"
+#include "shlight/scene/camera.h"
 #include "shlight/sh/coefficients.h"
 #include "shlight/sh/rotation.h"
 

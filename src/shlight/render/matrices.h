@@ -5,8 +5,8 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "shlight/render/camera.h"
 #include "shlight/render/gl.h"
+#include "shlight/scene/camera.h"
 #include "shlight/scene/scene.h"
 #include "shlight/sh/rotation.h"
 

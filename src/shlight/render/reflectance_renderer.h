@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "shlight/render/camera.h"
+#include "shlight/scene/camera.h"
 #include "shlight/render/gl.h"
 #include "shlight/render/gpu_scene.h"
 #include "shlight/render/surface_reflectance.h"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shlight/core/assert.h"
+#include "shlight/image/tone_map.h"
 #include "shlight/render/background.h"
 #include "shlight/render/context.h"
 #include "shlight/render/gpu_scene.h"

@@ -2,9 +2,6 @@
 
 #include <epoxy/gl.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "shaders.h"
 
 namespace shlight {
@@ -20,14 +17,6 @@ void ToneMapper::draw(unsigned radiance, double exposure) const {
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
   gl::draw_fullscreen_triangle();
-}
-
-double auto_exposure(const RgbCoefficients& radiance) {
-  constexpr double kExposedMean = 2 * 0.18;
-  if (radiance.size() == 0) return 1;
-  const double mean = luminance(radiance[0]) / std::sqrt(4 * std::numbers::pi);
-  const double exposure = kExposedMean / mean;
-  return mean > 0 && std::isfinite(exposure) ? exposure : 1;
 }
 
 }  // namespace shlight

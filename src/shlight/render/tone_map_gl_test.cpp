@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "shlight/image/tone_map.h"
 #include "shlight/render/render_test_util.h"
 
 namespace shlight {
@@ -79,11 +80,18 @@ TEST_F(ToneMap, IsDefinedForAllFloats) {
     }
 }
 
-TEST(AutoExposure, TakesTheMeanToOneStopAboveMiddleGrey) {
-  EXPECT_NEAR(auto_exposure(constant_light(3, {5, 5, 5})) * 5, 0.36, 1e-12);
-  EXPECT_EQ(auto_exposure(RgbCoefficients(3)), 1);
-  EXPECT_EQ(auto_exposure(constant_light(1, {-1, -1, -1})), 1);
-  EXPECT_EQ(auto_exposure(RgbCoefficients()), 1);
+TEST_F(ToneMap, IsTheProcessorsToHalfAStepOfAPicture) {
+  std::vector<Rgb> colors;
+  for (double stops = -12; stops <= 12; stops += 0.5)
+    for (const Rgb& hue : {Rgb{1, 1, 1}, Rgb{1, 0.2, 0.03}, Rgb{0.1, 0.4, 1}, Rgb{0, 1, -1}})
+      colors.push_back(std::exp2(stops) * hue);
+  const std::vector<Rgb> mapped = tone_mapped(colors, 0.7);
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const Rgb expected = tone_map(0.7 * colors[i]);
+    EXPECT_NEAR(mapped[i].r, encode_srgb(expected.r), 0.5 / 255) << i;
+    EXPECT_NEAR(mapped[i].g, encode_srgb(expected.g), 0.5 / 255) << i;
+    EXPECT_NEAR(mapped[i].b, encode_srgb(expected.b), 0.5 / 255) << i;
+  }
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "shlight/render/camera.h"
 #include "shlight/render/gl.h"
 #include "shlight/render/gpu_scene.h"
+#include "shlight/scene/camera.h"
 #include "shlight/sh/coefficients.h"
 #include "shlight/sh/rotation.h"
 #include "shlight/transfer/clustered_pca.h"

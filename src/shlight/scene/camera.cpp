@@ -1,11 +1,9 @@
-#include "shlight/render/camera.h"
+#include "shlight/scene/camera.h"
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
 #include <optional>
-
-#include "shlight/render/matrices.h"
 
 namespace shlight {
 namespace {
@@ -15,6 +13,10 @@ constexpr double kFill = 0.94;
 
 // Nearer than this, in radii, nothing is drawn; matters only where zoom takes the camera into the ball.
 constexpr double kMinNear = 1e-3;
+
+double radians(double degrees) {
+  return degrees * std::numbers::pi / 180;
+}
 
 // The distance at which the ball fits a picture whose half sides have the tangents tan_x and tan_y.
 double distance_to_ball(double radius, double tan_x, double tan_y) {
@@ -48,9 +50,11 @@ Extent scene_extent(const Scene& scene) {
   extent.half_height = 0.5 * (high.y - low.y);
   extent.radius = extent.cylinder_radius = 0;
   for (const Instance& instance : scene.instances) {
-    const glm::dmat4 to_world = to_glm(instance.to_world);
-    for (const Vec3f& p : scene.meshes[instance.mesh].positions) {
-      const glm::dvec4 world = to_world * glm::dvec4(p.x, p.y, p.z, 1);
+    const Mat4f& m = instance.to_world;
+    for (const Vec3f& q : scene.meshes[instance.mesh].positions) {
+      const Vec3d p = vec_cast<double>(q);
+      const Vec3d world = {m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12], m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
+                           m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]};
       const double aside = std::hypot(world.x - extent.center.x, world.z - extent.center.z);
       extent.cylinder_radius = std::max(extent.cylinder_radius, aside);
       extent.radius = std::max(extent.radius, std::hypot(aside, world.y - extent.center.y));
@@ -61,9 +65,9 @@ Extent scene_extent(const Scene& scene) {
 }
 
 View make_view(const Camera& camera, const Extent& extent, double aspect) {
-  const double azimuth = glm::radians(camera.azimuth);
-  const double elevation = glm::radians(std::clamp(camera.elevation, -90.0, 90.0));
-  const double tan_y = std::tan(0.5 * glm::radians(camera.vertical_fov)), tan_x = tan_y * aspect;
+  const double azimuth = radians(camera.azimuth);
+  const double elevation = radians(std::clamp(camera.elevation, -90.0, 90.0));
+  const double tan_y = std::tan(0.5 * radians(camera.vertical_fov)), tan_x = tan_y * aspect;
 
   // Everything from here on is in radii of the ball.
   const double framed =
@@ -72,16 +76,33 @@ View make_view(const Camera& camera, const Extent& extent, double aspect) {
                                     elevation, kFill * tan_x, kFill * tan_y));
   const double distance = framed / camera.zoom;
 
-  // From the world, read from the right: the centre to the origin, scaled to radii, the azimuth undone, then the
-  // elevation, then the camera moved back.
-  glm::dmat4 view = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, -distance));
-  view = glm::rotate(view, elevation, glm::dvec3(1, 0, 0));
-  view = glm::rotate(view, -azimuth, glm::dvec3(0, 1, 0));
-  view = glm::scale(view, glm::dvec3(1 / extent.radius));
-  view = glm::translate(view, -glm::dvec3(extent.center.x, extent.center.y, extent.center.z));
+  // The camera's axes in the world: one turned by the azimuth about +Y, then raised; it looks down −toward.
+  const double sin_a = std::sin(azimuth), cos_a = std::cos(azimuth);
+  const double sin_e = std::sin(elevation), cos_e = std::cos(elevation);
+  const Vec3d right = {cos_a, 0, -sin_a};
+  const Vec3d up = {-sin_e * sin_a, cos_e, -sin_e * cos_a};
+  const Vec3d toward = {cos_e * sin_a, sin_e, cos_e * cos_a};
+  View view = {};
+  std::size_t row = 0;
+  for (const Vec3d axis : {right, up, toward}) {
+    const Vec3d scaled = 1 / extent.radius * axis;
+    view.world_to_view[row] = scaled.x;
+    view.world_to_view[4 + row] = scaled.y;
+    view.world_to_view[8 + row] = scaled.z;
+    view.world_to_view[12 + row] = -dot(scaled, extent.center);
+    ++row;
+  }
+  view.world_to_view[14] -= distance;
+  view.world_to_view[15] = 1;
 
+  // OpenGL's perspective: what lies at the depth near comes to −1, far to 1.
   const double near = std::max(distance - 1.01, kMinNear), far = distance + 1.01;
-  return {to_mat4d(view), to_mat4d(glm::perspectiveRH_NO(2 * std::atan(tan_y), aspect, near, far))};
+  view.view_to_clip[0] = 1 / tan_x;
+  view.view_to_clip[5] = 1 / tan_y;
+  view.view_to_clip[10] = -(far + near) / (far - near);
+  view.view_to_clip[11] = -1;
+  view.view_to_clip[14] = -2 * far * near / (far - near);
+  return view;
 }
 
 }  // namespace shlight

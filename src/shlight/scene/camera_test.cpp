@@ -1,26 +1,34 @@
-#include "shlight/render/camera.h"
+#include "shlight/scene/camera.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "shlight/render/matrices.h"
-#include "shlight/render/render_test_util.h"
+#include "shlight/scene/shapes_test_util.h"
 
 namespace shlight {
 namespace {
 
-glm::dvec3 project(const View& view, Vec3d p) {
-  const glm::dvec4 clip = to_glm(view.view_to_clip) * to_glm(view.world_to_view) * glm::dvec4(p.x, p.y, p.z, 1);
-  return glm::dvec3(clip) / clip.w;
+// m (v, 1), with the fourth component that the matrix makes divided out.
+Vec3d transform(const Mat4d& m, Vec3d v) {
+  const auto row = [&](std::size_t r) { return m[r] * v.x + m[4 + r] * v.y + m[8 + r] * v.z + m[12 + r]; };
+  return 1 / row(3) * Vec3d{row(0), row(1), row(2)};
+}
+
+// In normalised device coordinates.
+Vec3d project(const View& view, Vec3d p) {
+  return transform(view.view_to_clip, transform(view.world_to_view, p));
 }
 
 // The largest |x|, |y|, |z| of the vertices in normalised device coordinates.
-glm::dvec3 largest_ndc(const View& view, const Scene& scene) {
-  glm::dvec3 largest(0);
-  for (const Vec3f& p : scene.meshes[0].positions)
-    largest = glm::max(largest, glm::abs(project(view, vec_cast<double>(p))));
+Vec3d largest_ndc(const View& view, const Scene& scene) {
+  Vec3d largest;
+  for (const Vec3f& p : scene.meshes[0].positions) {
+    const Vec3d ndc = project(view, vec_cast<double>(p));
+    largest = {std::max(largest.x, std::abs(ndc.x)), std::max(largest.y, std::abs(ndc.y)),
+               std::max(largest.z, std::abs(ndc.z))};
+  }
   return largest;
 }
 
@@ -35,7 +43,7 @@ TEST(Camera, AzimuthAndElevationLookWhereTheySay) {
     camera.azimuth = c.azimuth;
     camera.elevation = c.elevation;
     const View view = make_view(camera, {}, 1);
-    const glm::dvec3 right = project(view, 0.1 * c.right), up = project(view, 0.1 * c.up);
+    const Vec3d right = project(view, 0.1 * c.right), up = project(view, 0.1 * c.up);
     const Vec3d toward = cross(c.right, c.up);
     EXPECT_GT(right.x, 0.01) << c.azimuth << " " << c.elevation;
     EXPECT_NEAR(right.y, 0, 1e-12);
@@ -59,7 +67,7 @@ TEST(Camera, FramesModelsOfAnyShapeSizeAndPlace) {
           const Scene scene = make_test_scene(mesh);
           Camera camera;
           camera.elevation = elevation;
-          const glm::dvec3 ndc = largest_ndc(make_view(camera, scene_extent(scene), aspect), scene);
+          const Vec3d ndc = largest_ndc(make_view(camera, scene_extent(scene), aspect), scene);
           const auto where = testing::Message() << half_axes.y << " " << size << " " << aspect << " " << elevation;
           EXPECT_LT(std::max({ndc.x, ndc.y, ndc.z}), 1) << where;
           // From straight above a stick shows its tip only.
