@@ -30,8 +30,9 @@ class Ggx : public Brdf {
   Rgb eval_lobe(std::size_t lobe, Vec3d s, Vec3d v) const override {
     const Vec3d h = s + v;
     const double length2 = dot(h, h);
-    const Rgb fresnel = eval_schlick_fresnel(p_.f0, 0.5 * std::sqrt(length2));
-    if (lobe == kDiffuse) return 1 / pi * times(Rgb{1, 1, 1} - fresnel, p_.diffuse);
+    const double cosine = 0.5 * std::sqrt(length2);
+    if (lobe == kDiffuse) return 1 / pi * times(Rgb{1, 1, 1} - eval_schlick_fresnel(p_.diffuse_f0, cosine), p_.diffuse);
+    const Rgb fresnel = eval_schlick_fresnel(p_.f0, cosine);
     // G₂ / (4 n·s n·v) = 1 / (2 (n·s √… of v + n·v √… of s)), with the roots as lengths of stretched vectors.
     return distribution(h, length2) / (2 * (s.z * stretched_length(v) + v.z * stretched_length(s))) * fresnel;
   }

@@ -23,8 +23,10 @@ namespace shlight {
 struct GgxParams {
   double ax = 0.3, ay = 0.3;  // roughness α along tangent and bitangent, > 0
   Rgb f0 = {0.04, 0.04, 0.04};
-  Rgb diffuse = {0, 0,
-                 0};  // albedo of Lambertian light from below, to which (1 − F) ρ/π is added: metallic_roughness.h
+  // Of light that comes back from below the facets, with Fresnel's factor of what got in: (1 − F') diffuse/π is added,
+  // F' with an F0 of its own (metallic_roughness.h).
+  Rgb diffuse = {0, 0, 0};
+  Rgb diffuse_f0 = {0.04, 0.04, 0.04};
 };
 std::unique_ptr<Brdf> make_ggx(const GgxParams& params);
 

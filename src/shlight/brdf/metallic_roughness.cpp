@@ -12,6 +12,7 @@ std::unique_ptr<Brdf> make_metallic_roughness(Rgb base, double metallic, double 
   params.ax = params.ay = alpha;
   params.f0 = Rgb{dielectric, dielectric, dielectric} + metallic * base;
   params.diffuse = (1 - metallic) * base;
+  params.diffuse_f0 = {0.04, 0.04, 0.04};
   return make_ggx(params);
 }
 

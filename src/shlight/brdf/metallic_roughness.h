@@ -6,8 +6,9 @@
 
 namespace shlight {
 
-// glTF's material [1, appendix B.2]: GGX with α = roughness², F0 = 0.04 (1 − metallic) + base · metallic, over a
-// diffuse part (1 − F) base (1 − metallic)/π. All parameters in [0, 1]. α is held above 0.01, where a highlight is a
+// glTF's material [1, appendix B.2]: metallic parts of a metal, GGX with α = roughness² and F0 = base, and 1 − metallic
+// of a dielectric, GGX with F0 = 0.04 over a diffuse part (1 − F) base/π. Linear in the base colour. All parameters in
+// [0, 1]. α is held above 0.01, where a highlight is a
 // mirror to any number of bands here.
 //
 // [1] Khronos Group 2021, glTF 2.0 Specification.
