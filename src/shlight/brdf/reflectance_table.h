@@ -50,7 +50,7 @@ struct ReflectanceTableParams {
   int bands = 5;            // 1 to kMaxTableBands
   int polar_size = 256;     // entries of an isotropic table, >= 2
   int square_size = 128;    // entries of a side of an anisotropic one, >= 2
-  double tolerance = 4e-5;  // of entries, relative to their largest coefficient
+  double tolerance = 6e-5;  // of entries, relative to their largest coefficient
   int threads = 0;          // 0: all; the same bits for any number
 };
 inline constexpr int kMaxTableBands = 10;
