@@ -15,7 +15,7 @@ constexpr int kPictureWidth = 1024;
 // Pixels with more than this share of the light are parted, where the light is not constant within them.
 constexpr double kPartedShare = 1e-3;
 constexpr int kParts = 32;  // a side
-// The share of a parted pixel that is spread evenly, for what parts' middles do not see.
+// The share of a parted pixel that is spread evenly, for what is seen neither at parts' corners nor in their middles.
 constexpr double kEvenShare = 0.02;
 
 double brightness(Rgb c) {
@@ -94,12 +94,22 @@ LightSampler::Parted LightSampler::part(const Light& light, std::size_t pixel, d
   const double left = static_cast<double>(pixel % static_cast<std::size_t>(width_));
   const double top = static_cast<double>(pixel / static_cast<std::size_t>(width_));
   Parted parted{pixel, std::vector<float>(kParts + 1), std::vector<float>((kParts + 1) * kParts)};
+  // What an edge cuts through is to be sampled as densely as what lies within it: a part counts as the brightest of its
+  // corners and its middle.
+  const auto at = [&](double x, double y) {
+    return brightness(
+        light.radiance(direction(left + x / kParts, std::min(top + y / kParts, std::nextafter(top + 1, 0)))));
+  };
+  std::vector<double> corners((kParts + 1) * (kParts + 1));
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    corners[k] = at(static_cast<double>(k % (kParts + 1)), static_cast<double>(k / (kParts + 1)));
   for (std::size_t j = 0; j < kParts; ++j) {
     const std::span<float> weights = std::span(parted.columns).subspan((kParts + 1) * j, kParts + 1);
     for (std::size_t i = 0; i < kParts; ++i) {
-      const Vec3d middle =
-          direction(left + (static_cast<double>(i) + 0.5) / kParts, top + (static_cast<double>(j) + 0.5) / kParts);
-      weights[i + 1] = static_cast<float>(brightness(light.radiance(middle)) + kEvenShare * mean);
+      const double* corner = corners.data() + (kParts + 1) * j + i;
+      const double brightest = std::max({corner[0], corner[1], corner[kParts + 1], corner[kParts + 2],
+                                         at(static_cast<double>(i) + 0.5, static_cast<double>(j) + 0.5)});
+      weights[i + 1] = static_cast<float>(brightest + kEvenShare * mean);
     }
     parted.rows[j + 1] = static_cast<float>(accumulate(weights));
   }
