@@ -109,15 +109,13 @@ class TurnedLight {
 
 // --- the scene
 
-// A material that is glossy. It is quadratic in its base colour, which is in F0 and in the diffuse part that 1 − F
-// leaves over, channel by channel: known from what black, grey and white do.
+// A material that is glossy: linear in its base colour, and so known from what black and white do.
 struct Gloss {
-  std::unique_ptr<Brdf> black, grey, white;  // base colours 0, 1/2 and 1
+  std::unique_ptr<Brdf> black, white;
 
-  Rgb eval(Rgb base, Vec3d s, Vec3d v) const {
-    const Rgb one = {1, 1, 1};
-    return (one - base) * (one - 2 * base) * black->eval(s, v) + 4 * base * (one - base) * grey->eval(s, v) +
-           base * (2 * base - one) * white->eval(s, v);
+  Rgb eval(Rgb base_color, Vec3d s, Vec3d v) const {
+    const Rgb of_black = black->eval(s, v);
+    return of_black + base_color * (white->eval(s, v) - of_black);
   }
 };
 
@@ -184,7 +182,7 @@ class TracedScene {
       const auto make = [&](double base) {
         return make_metallic_roughness({base, base, base}, material.gloss->metallic, material.gloss->roughness);
       };
-      of_material.back() = glosses_.emplace_back(std::make_unique<Gloss>(Gloss{make(0), make(0.5), make(1)})).get();
+      of_material.back() = glosses_.emplace_back(std::make_unique<Gloss>(Gloss{make(0), make(1)})).get();
     }
     if (glosses_.empty()) return;
     for (const Instance& instance : scene.instances)
