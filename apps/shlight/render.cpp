@@ -35,7 +35,7 @@ void check_render_options(const CLI::App& command, RenderArguments& arguments) {
   const auto given = [&](const char* option) { return command.count(option) > 0; };
   if (given("--material") && !given("--method")) arguments.method = "reflectance";
   const std::string& method = arguments.method;
-  const bool is_reference = method == "reference", is_reflectance = method == "reflectance";
+  const bool is_reference = method == "reference", is_reflectance = method == "reflectance" || method == "hybrid";
   for (const char* option : {"--transfer", "--samples", "--bounces"})
     if (given(option) && method != "transfer" && !is_reference)
       throw CLI::ValidationError(option, "only with --method transfer or reference");
@@ -44,10 +44,10 @@ void check_render_options(const CLI::App& command, RenderArguments& arguments) {
   for (const char* option : {"--deviation", "--gloss"})
     if (given(option) && !is_reference) throw CLI::ValidationError(option, "only with --method reference");
   if (given("--material") && !is_reflectance && !is_reference)
-    throw CLI::ValidationError("--material", "only with --method reflectance or reference");
+    throw CLI::ValidationError("--material", "only with --method reflectance, hybrid or reference");
   if (given("--material") && arguments.gloss)
     throw CLI::ValidationError("--gloss", "not with --material, which takes the place of the model's own materials");
-  if (given("--shade") && !is_reflectance) throw CLI::ValidationError("--shade", "only with --method reflectance");
+  if (given("--shade") && !is_reflectance) throw CLI::ValidationError("--shade", "only with --method reflectance or hybrid");
   if (given("--bounces") && is_reference && arguments.bake.kind != TransferKind::kInterreflected)
     throw CLI::ValidationError("--bounces", "only with --transfer interreflected");
   if (!is_reference) check_bake_options(command, arguments.bake);
@@ -77,11 +77,12 @@ void add_render(CLI::App& program, Run& run) {
   command
       ->add_option("--method", arguments->method,
                    "How the model is lit: by its normals; by what is baked for each vertex, now (--transfer) or before "
-                   "where MODEL is a file of shlight bake; by how its materials or --material reflect; or path traced "
+                   "where MODEL is a file of shlight bake; by how its materials or --material reflect (hybrid: in highlights "
+                   "all of the light, not only its first bands); or path traced "
                    "without spherical harmonics, what the others approximate (--transfer, --samples a pixel)")
-      ->type_name("irradiance|transfer|reflectance|reference")
+      ->type_name("irradiance|transfer|reflectance|hybrid|reference")
       ->default_str("irradiance, with --material reflectance")
-      ->check(CLI::IsMember({"irradiance", "transfer", "reflectance", "reference"}).description(""));
+      ->check(CLI::IsMember({"irradiance", "transfer", "reflectance", "hybrid", "reference"}).description(""));
   command
       ->add_option("--material", arguments->material,
                    "How all surfaces reflect, instead of their own materials, for instance cook-torrance:m=0.3,f0=0.9")

@@ -89,13 +89,16 @@ RenderResult draw_reflectance(const RenderArguments& arguments, const Scene& sce
   table.bands = params.bands;
   const auto start = std::chrono::steady_clock::now();
   const auto brdf = make_material(arguments);
-  const auto surfaces = brdf ? make_surface_reflectances(scene, *brdf, table)
-                             : make_surface_reflectances(scene, table, progress_bar("making reflectance tables"));
+  const bool hybrid = arguments.method == "hybrid";
+  const auto surfaces =
+      brdf ? make_surface_reflectances(scene, *brdf, table, hybrid)
+           : make_surface_reflectances(scene, table, hybrid, progress_bar("making reflectance tables"));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   json = {{"material", brdf ? arguments.material : "own"},
           {"shade", params.shade == Shade::kPixel ? "pixel" : "vertex"},
           {"table_seconds", seconds}};
-  return render_reflectance(scene, surfaces, light, params, progress_bar("drawing"));
+  const auto draw = hybrid ? render_hybrid : render_reflectance;
+  return draw(scene, surfaces, light, params, progress_bar("drawing"));
 }
 
 // Root mean square of the pixels' deviations, relative to the picture's.
@@ -180,7 +183,7 @@ void run_render(const RenderArguments& arguments) {
   }
   const Scene& scene = drawn.baked.scene;
   const RenderResult result = transfer ? render_baked(drawn.baked, light, params, progress_bar("drawing"))
-                              : arguments.method == "reflectance"
+                              : arguments.method == "reflectance" || arguments.method == "hybrid"
                                   ? draw_reflectance(arguments, scene, light, params, drawn.json)
                                   : render_irradiance(scene, light, params, progress_bar("drawing"));
 

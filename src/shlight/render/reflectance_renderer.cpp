@@ -1,8 +1,12 @@
 #include "shlight/render/reflectance_renderer.h"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string>
 
 #include "shaders.h"
@@ -18,13 +22,21 @@ int channels_of(const SurfaceReflectance& surface) {
   return surface.tinted ? 2 : surface.plain->channels;
 }
 
-// A layer for every texel of an entry, as reflectance_texel of reflect.glsl reads them.
+// Layers of the coefficients of one entry.
+int num_layers(int bands, int channels, bool isotropic) {
+  const int numbers = channels * (isotropic ? bands * (bands + 1) / 2 : num_coefficients(bands));
+  return channels == 3 ? numbers / 3 : (numbers + 3) / 4;
+}
+
+// A layer for every texel of an entry, as reflectance_texel of reflect.glsl reads them; after them, where there is a
+// highlight, its plain and its tinted albedo.
 gl::Texture upload_table(const SurfaceReflectance& surface) {
   const ReflectanceTable& plain = *surface.plain;
   const int channels = channels_of(surface), per_texel = channels == 3 ? 3 : 4;
   const std::size_t entry = static_cast<std::size_t>(plain.coefficients() * channels);
   const std::size_t entries = static_cast<std::size_t>(plain.width) * plain.height;
-  const int layers = (plain.coefficients() * channels + per_texel - 1) / per_texel;
+  const int layers = num_layers(plain.bands, channels, plain.isotropic());
+  const int all_layers = surface.highlight ? layers + 2 : layers;
   SHLIGHT_ASSERT_LE(2, plain.width);
 
   // Number i of an entry; of two channels, tinted and plain take turns.
@@ -36,7 +48,7 @@ gl::Texture upload_table(const SurfaceReflectance& surface) {
 
   gl::Texture texture = gl::make_texture();
   glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id());
-  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA32F, plain.width, plain.height, layers);
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA32F, plain.width, plain.height, all_layers);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   std::vector<float> values(4 * entries);
@@ -49,11 +61,47 @@ gl::Texture upload_table(const SurfaceReflectance& surface) {
     glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, plain.width, plain.height, 1, GL_RGBA, GL_FLOAT,
                     values.data());
   }
+  for (int layer = layers; layer < all_layers; ++layer) {
+    const ReflectanceTable* const albedo =
+        layer == layers ? &surface.highlight->plain : surface.highlight->tinted ? &*surface.highlight->tinted : nullptr;
+    for (std::size_t at = 0; at < entries; ++at)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t channel = albedo && albedo->channels == 3 ? 3 * at + k : at;
+        // The integral of f cos is the first coefficient over that of the constant 1.
+        values[4 * at + k] = albedo ? static_cast<float>(std::sqrt(4 * std::numbers::pi)) * albedo->values[channel] : 0;
+      }
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, plain.width, plain.height, 1, GL_RGBA, GL_FLOAT, values.data());
+  }
   gl::check_errors("a reflectance table's texture");
   return texture;
 }
 
-gl::Program make_program(int channels, bool isotropic, const RgbCoefficients& radiance, Shade shade) {
+// Half floats, which every OpenGL ES 3.0 interpolates.
+gl::Texture upload_residual(const ResidualLight& residual, const SurfaceHighlight& highlight, double unit) {
+  const int size = prefiltered_size(highlight.width);
+  CubeFaces faces = prefilter_cube(residual, highlight.lobe, size);
+  gl::Texture texture = gl::make_texture();
+  glBindTexture(GL_TEXTURE_CUBE_MAP, texture.id());
+  glTexStorage2D(GL_TEXTURE_CUBE_MAP, 1, GL_RGBA16F, size, size);
+  glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  constexpr float kLargestHalf = 65504;
+  std::vector<float> values(4 * static_cast<std::size_t>(size) * size);
+  for (std::size_t face = 0; face < faces.size(); ++face) {
+    const std::vector<float>& rgb = faces[face].values;
+    for (std::size_t i = 0; i < rgb.size(); ++i)
+      values[4 * (i / 3) + i % 3] = std::clamp(static_cast<float>(unit) * rgb[i], -kLargestHalf, kLargestHalf);
+    glTexSubImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face), 0, 0, 0, size, size, GL_RGBA, GL_FLOAT,
+                    values.data());
+  }
+  gl::check_errors("a cube map of the light");
+  return texture;
+}
+
+}  // namespace
+
+gl::Program ReflectanceRenderer::make_program(const Kind& kind, const RgbCoefficients& radiance, Shade shade) const {
+  const auto& [channels, isotropic, hybrid] = kind;
   if (channels == 0) {
     gl::Program program(shaders::mesh_vert, shaders::surface_frag,
                         std::string(shaders::irradiance_frag) + make_irradiance_glsl(radiance.bands()));
@@ -61,8 +109,9 @@ gl::Program make_program(int channels, bool isotropic, const RgbCoefficients& ra
     set_irradiance_uniforms(program, radiance);
     return program;
   }
-  const std::string reflect = std::string(isotropic ? "" : "#define ANISOTROPIC\n") +
-                              std::string(shaders::reflect_glsl) +
+  std::string defines = isotropic ? "" : "#define ANISOTROPIC\n";
+  if (hybrid) defines += fmt::format("#define HIGHLIGHT_LAYER {}\n", num_layers(radiance.bands(), channels, isotropic));
+  const std::string reflect = defines + std::string(shaders::reflect_glsl) +
                               make_reflectance_glsl({radiance.bands(), channels, isotropic});
   gl::Program program = shade == Shade::kPixel ? gl::Program(shaders::mesh_vert, shaders::surface_frag,
                                                              std::string(shaders::reflectance_frag) + reflect)
@@ -70,20 +119,21 @@ gl::Program make_program(int channels, bool isotropic, const RgbCoefficients& ra
                                                              shaders::surface_frag, shaders::reflectance_vertex_frag);
   program.use();
   program.set("u_reflectance", 1);
+  program.set("u_residual", 2);
   set_radiance_uniforms(program, radiance);
   return program;
 }
 
-}  // namespace
-
 ReflectanceRenderer::ReflectanceRenderer(std::span<const SurfaceReflectance> surfaces, const RgbCoefficients& radiance,
-                                         Shade shade) {
+                                         Shade shade, const ResidualLight* residual, double unit) {
   for (const SurfaceReflectance& surface : surfaces) {
-    const Kind kind = {channels_of(surface), !surface.plain || surface.plain->isotropic()};
+    const bool hybrid = residual && surface.highlight;
+    const Kind kind = {channels_of(surface), !surface.plain || surface.plain->isotropic(), hybrid};
     if (surface.plain) SHLIGHT_ASSERT_EQ(surface.plain->bands, radiance.bands());
-    if (!programs_.contains(kind)) programs_.emplace(kind, make_program(kind.first, kind.second, radiance, shade));
-    surfaces_.push_back({&programs_.at(kind), surface.plain ? upload_table(surface) : gl::Texture()});
-    needs_tangents_ = needs_tangents_ || !kind.second;
+    if (!programs_.contains(kind)) programs_.emplace(kind, make_program(kind, radiance, shade));
+    surfaces_.push_back({&programs_.at(kind), surface.plain ? upload_table(surface) : gl::Texture(),
+                         hybrid ? upload_residual(*residual, *surface.highlight, unit) : gl::Texture()});
+    needs_tangents_ = needs_tangents_ || !kind.isotropic;
   }
 }
 
@@ -99,6 +149,8 @@ void ReflectanceRenderer::draw(const GpuScene& scene, const View& view, const Ro
     const Surface& surface = surfaces_[material];
     glActiveTexture(GL_TEXTURE1);
     glBindTexture(GL_TEXTURE_2D_ARRAY, surface.table.id());
+    glActiveTexture(GL_TEXTURE2);
+    glBindTexture(GL_TEXTURE_CUBE_MAP, surface.residual.id());
     return *surface.program;
   };
   scene.draw(program_of, view, light_to_world);

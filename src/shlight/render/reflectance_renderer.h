@@ -1,15 +1,16 @@
 #pragma once
 
 #include <cstddef>
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <span>
-#include <tuple>
 #include <vector>
 
 #include "shlight/scene/camera.h"
 #include "shlight/render/gl.h"
 #include "shlight/render/gpu_scene.h"
+#include "shlight/render/residual_light.h"
 #include "shlight/render/surface_reflectance.h"
 #include "shlight/sh/coefficients.h"
 #include "shlight/sh/rotation.h"
@@ -24,13 +25,21 @@ enum class Shade { kPixel, kVertex };
 // meet in the shader, for every pixel or vertex anew, so that light, view and things may all turn. No shadows. Needs a
 // current context.
 //
+// The hybrid method, after [2], adds what the coefficients leave out of highlights: the residual of the light, averaged
+// over the lobe that the surface shows an eye right above and mirrored into place, times the lobe's albedo for the view.
+// Coefficients and residual add up to the light, so that a slim lobe shows the light itself, and a wide one, over which
+// the residual averages to nothing, what the reflectance method shows.
+//
 // [1] Kautz, Sloan, Snyder 2002, Fast, Arbitrary BRDF Shading for Low-Frequency Lighting Using Spherical Harmonics,
 //     Eurographics Workshop on Rendering.
+// [2] Chen, Liu 2008, Lighting and Material of Halo 3, SIGGRAPH courses.
 class ReflectanceRenderer {
  public:
   // `surfaces` are those of the scene's materials, with tables of radiance.bands(), 1 to 10. Materials whose tables are
-  // alike in kind share a shader, which is compiled here. Throws Error where memory runs out.
-  ReflectanceRenderer(std::span<const SurfaceReflectance> surfaces, const RgbCoefficients& radiance, Shade shade);
+  // alike in kind share a shader, which is compiled here. With `residual`, what the light has beyond `radiance`, times
+  // `unit`, the hybrid method: highlights reflect that too. Throws Error where memory runs out.
+  ReflectanceRenderer(std::span<const SurfaceReflectance> surfaces, const RgbCoefficients& radiance, Shade shade,
+                      const ResidualLight* residual = nullptr, double unit = 1);
 
   // From now on, paints stripes of this radiance where a channel of the radiance is negative; black: no more.
   void mark_negative(Vec3f radiance);
@@ -42,12 +51,18 @@ class ReflectanceRenderer {
   bool needs_tangents() const { return needs_tangents_; }
 
  private:
-  // Channels of ReflectanceGlslParams (0: Lambertian, without a table), isotropic.
-  using Kind = std::pair<int, bool>;
+  struct Kind {
+    int channels = 0;  // of ReflectanceGlslParams; 0: Lambertian, without a table
+    bool isotropic = true;
+    bool hybrid = false;
+    auto operator<=>(const Kind&) const = default;
+  };
   struct Surface {
     const gl::Program* program;
-    gl::Texture table;
+    gl::Texture table, residual;
   };
+
+  gl::Program make_program(const Kind& kind, const RgbCoefficients& radiance, Shade shade) const;
 
   std::map<Kind, gl::Program> programs_;
   std::vector<Surface> surfaces_;  // of each material

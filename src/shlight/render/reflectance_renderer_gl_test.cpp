@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "shlight/brdf/make_brdf.h"
 #include "shlight/brdf/metallic_roughness.h"
+#include "shlight/image/environment.h"
+#include "shlight/light/light.h"
 #include "shlight/render/render.h"
 #include "shlight/render/render_test_util.h"
 #include "shlight/scene/shapes.h"
@@ -196,6 +199,67 @@ TEST_F(ReflectanceRendererTest, ThingsHaveMaterialsOfTheirOwn) {
   const double difference = largest_of(a.rgb(x, y) - a.rgb(params.width - 1 - x, y));
   EXPECT_GT(difference, 0.01);
   EXPECT_LT(largest_of(a.rgb(x, y) - b.rgb(x + params.width / 2, y)), 0.1 * difference);
+}
+
+// What a sphere's middle leaves toward an eye in front of it, by brute force: ∫ f L cos over a fine grid of the
+// picture.
+Rgb reflected_to_front(const Brdf& brdf, const Image& picture) {
+  Rgb sum;
+  const double step = std::numbers::pi / picture.height;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const Vec3d d = *direction_at(Layout::kLatLong, {(x + 0.5) / picture.width, (y + 0.5) / picture.height});
+      if (d.z <= 0) continue;
+      const Rgb f = brdf.eval(d, {0, 0, 1}), l = picture.rgb(x, y);
+      const double weight = d.z * step * step * std::sqrt(1 - d.y * d.y);
+      sum += weight * Rgb{f.r * l.r, f.g * l.g, f.b * l.b};
+    }
+  return sum;
+}
+
+// Smooth enough for pixels, with far more than five bands.
+Image make_spotty_picture() {
+  Image picture(1024, 512);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const Vec3d d = *direction_at(Layout::kLatLong, {(x + 0.5) / picture.width, (y + 0.5) / picture.height});
+      const double spot = std::exp(60 * (0.2 * d.x + 0.1 * d.y + std::sqrt(0.95) * d.z - 1));
+      picture.set_rgb(x, y, {0.3 + 4 * spot, 0.3 + 0.2 * d.y + 3 * spot, 0.4 + spot});
+    }
+  return picture;
+}
+
+TEST_F(ReflectanceRendererTest, HybridHighlightsAreThoseOfTheWholeLight) {
+  const Image picture = make_spotty_picture();
+  const auto light = std::make_unique<ImageLight>(Environment{picture, Layout::kLatLong});
+  RenderParams params = parallel_params(5);
+  double gained = 0;
+  for (const char* material : {"ggx:alpha=0.1,f0=0.8", "ggx:alpha=0.25,f0=0.9/0.6/0.3", "ggx:alpha=0.8,f0=0.8",
+                               "cook-torrance:m=0.15,f0=0.7", "ward:sigma=0.15"}) {
+    const auto brdf = make_brdf(material);
+    const auto surfaces = make_surface_reflectances(sphere_, *brdf, table_params(5), true);
+    const RenderLight lit = {light->project(5), picture};
+    const Rgb hybrid = render_hybrid(sphere_, surfaces, lit, params).radiance.rgb(kSize / 2, kSize / 2);
+    const Rgb alone = draw(sphere_, surfaces, lit.coefficients, params).rgb(kSize / 2, kSize / 2);
+    const Rgb expected = reflected_to_front(*brdf, picture);
+    EXPECT_NEAR(hybrid.r, expected.r, 0.03 * expected.r) << material << ", without: " << alone.r;
+    EXPECT_NEAR(hybrid.b, expected.b, 0.03 * expected.b) << material << ", without: " << alone.b;
+    gained = std::max(gained, std::abs(alone.r - expected.r) / expected.r);
+  }
+  EXPECT_GT(gained, 0.2) << "a test that the reflectance method passes too is no test of this one";
+}
+
+TEST_F(ReflectanceRendererTest, HybridMirrorShowsTheLight) {
+  const Image picture = make_spotty_picture();
+  const auto light = std::make_unique<ImageLight>(Environment{picture, Layout::kLatLong});
+  const auto surfaces = make_surface_reflectances(sphere_, *make_brdf("ggx:alpha=0.01,f0=1"), table_params(5), true);
+  const Image image = render_hybrid(sphere_, surfaces, {light->project(5), picture}, parallel_params(5)).radiance;
+  const Environment environment = {picture, Layout::kLatLong};
+  for (int x = kSize / 5; x < kSize - kSize / 5; x += 3) {
+    const double nx = ((x + 0.5) / kSize - 0.5) / 0.47, nz = std::sqrt(1 - nx * nx);
+    const Rgb expected = eval_bilinear(environment, {2 * nz * nx, 0, 2 * nz * nz - 1});
+    EXPECT_NEAR(image.rgb(x, kSize / 2).r, expected.r, 0.05 * expected.r + 0.02) << x;
+  }
 }
 
 TEST_F(ReflectanceRendererTest, WhiteFurnace) {

@@ -40,7 +40,8 @@ bool needs_tangents(const ReflectanceRenderer& renderer) {
   return renderer.needs_tangents();
 }
 
-// Draws with the renderer that make_renderer makes in the context from the light's coefficients.
+// Draws with the renderer that make_renderer makes in the context from the light's coefficients, which are measured in
+// 1/unit.
 template <class MakeRenderer>
 RenderResult render(const Scene& scene, const RenderLight& light, const RenderParams& params, const Progress& progress,
                     const MakeRenderer& make_renderer) {
@@ -56,7 +57,7 @@ RenderResult render(const Scene& scene, const RenderLight& light, const RenderPa
   const RgbCoefficients coefficients = scaled(unit, resize_bands(light.coefficients, params.bands));
   const Background background =
       light.background.num_pixels() > 0 ? Background(light.background, unit) : Background(coefficients);
-  auto renderer = make_renderer(coefficients);
+  auto renderer = make_renderer(coefficients, unit);
   const double exposed = exposure / unit * std::exp2(params.exposure);
   if (params.mark_negative) {
     const float bright = static_cast<float>(1 / exposed);
@@ -109,28 +110,38 @@ RenderLight make_render_light(const Light& light, int bands, int background_widt
 RenderResult render_irradiance(const Scene& scene, const RenderLight& light, const RenderParams& params,
                                const Progress& progress) {
   return render(scene, light, params, progress,
-                [](const RgbCoefficients& radiance) { return IrradianceRenderer(radiance); });
+                [](const RgbCoefficients& radiance, double) { return IrradianceRenderer(radiance); });
 }
 
 RenderResult render_reflectance(const Scene& scene, std::span<const SurfaceReflectance> surfaces,
                                 const RenderLight& light, const RenderParams& params, const Progress& progress) {
   SHLIGHT_ASSERT_EQ(surfaces.size(), scene.materials.size());
   return render(scene, light, params, progress,
-                [&](const RgbCoefficients& radiance) { return ReflectanceRenderer(surfaces, radiance, params.shade); });
+                [&](const RgbCoefficients& radiance, double) { return ReflectanceRenderer(surfaces, radiance, params.shade); });
+}
+
+RenderResult render_hybrid(const Scene& scene, std::span<const SurfaceReflectance> surfaces, const RenderLight& light,
+                           const RenderParams& params, const Progress& progress) {
+  SHLIGHT_ASSERT_EQ(surfaces.size(), scene.materials.size());
+  if (light.background.num_pixels() == 0) return render_reflectance(scene, surfaces, light, params, progress);
+  const ResidualLight residual(light.background, resize_bands(light.coefficients, params.bands));
+  return render(scene, light, params, progress, [&](const RgbCoefficients& radiance, double unit) {
+    return ReflectanceRenderer(surfaces, radiance, params.shade, &residual, unit);
+  });
 }
 
 RenderResult render_transfer(const Scene& scene, const Transfer& transfer, const RenderLight& light,
                              const RenderParams& params, const Progress& progress) {
   SHLIGHT_ASSERT_EQ(transfer.num_vertices(), num_vertices(scene));
   return render(scene, light, params, progress,
-                [&](const RgbCoefficients& radiance) { return TransferRenderer(transfer, radiance); });
+                [&](const RgbCoefficients& radiance, double) { return TransferRenderer(transfer, radiance); });
 }
 
 RenderResult render_baked(const Baked& baked, const RenderLight& light, const RenderParams& params,
                           const Progress& progress) {
   const BakeInfo& info = baked.info;
   SHLIGHT_ASSERT_EQ(baked.transfer.num_vertices(), num_vertices(baked.scene));
-  return render(baked.scene, light, params, progress, [&](const RgbCoefficients& radiance) {
+  return render(baked.scene, light, params, progress, [&](const RgbCoefficients& radiance, double) {
     return info.pca ? TransferRenderer(*info.pca, radiance) : TransferRenderer(baked.transfer, radiance, info.bits);
   });
 }

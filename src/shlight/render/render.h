@@ -59,6 +59,11 @@ RenderResult render_irradiance(const Scene& scene, const RenderLight& light, con
 RenderResult render_reflectance(const Scene& scene, std::span<const SurfaceReflectance> surfaces,
                                 const RenderLight& light, const RenderParams& params, const Progress& progress = {});
 
+// The same by the hybrid method: `surfaces` have highlights, which also reflect what light.background has beyond the
+// coefficients. Without a background, the reflectance method.
+RenderResult render_hybrid(const Scene& scene, std::span<const SurfaceReflectance> surfaces, const RenderLight& light,
+                           const RenderParams& params, const Progress& progress = {});
+
 // The same by the transfer method: `transfer` is the scene's, as bake_transfer makes it.
 RenderResult render_transfer(const Scene& scene, const Transfer& transfer, const RenderLight& light,
                              const RenderParams& params, const Progress& progress = {});

@@ -6,9 +6,20 @@
 #include "shlight/brdf/brdf.h"
 #include "shlight/brdf/reflectance_table.h"
 #include "shlight/core/progress.h"
+#include "shlight/render/slim_lobe.h"
 #include "shlight/scene/scene.h"
 
 namespace shlight {
+
+// A surface's slim lobes (slim_lobe.h), for the light beyond the tables' bands: how much of what comes from the mirrored
+// direction's surroundings they reflect to each view, as tables of one band and of the size of those below, and over
+// which surroundings.
+struct SurfaceHighlight {
+  ReflectanceTable plain;
+  std::optional<ReflectanceTable> tinted;
+  std::vector<LobeSample> lobe;
+  double width = 1;
+};
 
 // How a surface reflects, as reflectance coefficients of all views: radiance = Σ L_i (plain_i + base colour ·
 // tinted_i), where the base colour is that of the material, the vertices and the texture together. Without any table, a
@@ -16,15 +27,18 @@ namespace shlight {
 struct SurfaceReflectance {
   std::optional<ReflectanceTable> plain;
   std::optional<ReflectanceTable> tinted;  // grey and of the size of `plain`, which is then there and grey too
+  std::optional<SurfaceHighlight> highlight;
 };
 
 // Of each material of the scene: glTF's metallic-roughness where it has gloss, which is linear in the base colour and
 // so takes any texture; else Lambertian. Materials of equal gloss are computed once each. Throws Cancelled.
+// `highlights`: whether those are made too.
 std::vector<SurfaceReflectance> make_surface_reflectances(const Scene& scene, const ReflectanceTableParams& params,
-                                                          const Progress& progress = {});
+                                                          bool highlights = false, const Progress& progress = {});
 
 // `brdf` for all materials of the scene, whatever their colours and textures.
 std::vector<SurfaceReflectance> make_surface_reflectances(const Scene& scene, const Brdf& brdf,
-                                                          const ReflectanceTableParams& params);
+                                                          const ReflectanceTableParams& params,
+                                                          bool highlights = false);
 
 }  // namespace shlight

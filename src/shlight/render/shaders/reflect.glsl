@@ -1,9 +1,15 @@
 
 // The radiance that a surface leaves toward the eye, by its table of reflectance coefficients: layer k of the texture
 // holds reflectance_texel(k) of all views, placed as brdf/reflectance_table.h says. ANISOTROPIC is defined where the
-// table is of both the view's polar angle and its azimuth from the tangent. For vertex and fragment shaders.
+// table is of both the view's polar angle and its azimuth from the tangent; HIGHLIGHT_LAYER, the first of two layers with
+// the albedo of highlights, plain and tinted, where those reflect the light's residual too. For vertex and fragment
+// shaders.
 
 uniform highp sampler2DArray u_reflectance;
+
+#ifdef HIGHLIGHT_LAYER
+uniform highp samplerCube u_residual;  // averaged over the highlight
+#endif
 
 void eval_reflectance(vec3 n, vec3 t, out vec3 plain, out vec3 tinted);
 
@@ -47,4 +53,9 @@ void reflect_light(vec3 n, vec3 tangent, vec3 to_eye, out vec3 plain, out vec3 t
 #endif
   g_share = place - vec2(g_first);
   eval_reflectance(n, t, plain, tinted);
+#ifdef HIGHLIGHT_LAYER
+  vec3 residual = textureLod(u_residual, reflect(-v, n), 0.0).rgb;
+  plain += residual * reflectance_texel(HIGHLIGHT_LAYER).rgb;
+  tinted += residual * reflectance_texel(HIGHLIGHT_LAYER + 1).rgb;
+#endif
 }
