@@ -53,7 +53,7 @@ TEST(LightSampler, DensityIntegratesToOne) {
     const LightSampler sampler(*light);
     constexpr int kWidth = 1024, kHeight = 512;
     double integral = 0;
-    const auto pdf_at = [&](double x, double y, double height) {
+    const auto pdf_at = [&](double x, double height) {
       const double azimuth = 2 * std::numbers::pi * (x / kWidth - 0.5), radius = std::sqrt(1 - height * height);
       return sampler.pdf({radius * std::sin(azimuth), height, -radius * std::cos(azimuth)});
     };
@@ -63,15 +63,15 @@ TEST(LightSampler, DensityIntegratesToOne) {
       const double solid_angle = 2 * std::numbers::pi / kWidth * (top - bottom);
       for (int x = 0; x < kWidth; ++x) {
         // Bright pixels are parted: 32 x 32 parts, each as much of the height.
-        const double middle = pdf_at(x + 0.5, y, 0.5 * (top + bottom));
+        const double middle = pdf_at(x + 0.5, 0.5 * (top + bottom));
         constexpr int kParts = 32;
         double sum = 0;
         const bool is_parted =
-            std::max({middle, pdf_at(x + 0.1, y, std::lerp(top, bottom, 0.1)),
-                      pdf_at(x + 0.9, y, std::lerp(top, bottom, 0.1)), pdf_at(x + 0.1, y, std::lerp(top, bottom, 0.9)),
-                      pdf_at(x + 0.9, y, std::lerp(top, bottom, 0.9))}) > 5;
+            std::max({middle, pdf_at(x + 0.1, std::lerp(top, bottom, 0.1)),
+                      pdf_at(x + 0.9, std::lerp(top, bottom, 0.1)), pdf_at(x + 0.1, std::lerp(top, bottom, 0.9)),
+                      pdf_at(x + 0.9, std::lerp(top, bottom, 0.9))}) > 5;
         for (int k = 0; is_parted && k < kParts * kParts; ++k)
-          sum += pdf_at(x + (k % kParts + 0.5) / kParts, y, std::lerp(top, bottom, (k / kParts + 0.5) / kParts));
+          sum += pdf_at(x + (k % kParts + 0.5) / kParts, std::lerp(top, bottom, (k / kParts + 0.5) / kParts));
         integral += solid_angle * (is_parted ? sum / (kParts * kParts) : middle);
       }
     }

@@ -13,6 +13,7 @@
 
 #include "shlight/brdf/metallic_roughness.h"
 #include "shlight/core/assert.h"
+#include "shlight/core/error.h"
 #include "shlight/core/parallel.h"
 #include "shlight/scene/tangents.h"
 #include "shlight/scene/transform.h"
@@ -469,6 +470,7 @@ PathTraceResult trace_paths(const Scene& scene, const Light& light, const PathTr
   const std::size_t tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   std::mutex mutex;  // of what is counted
   std::size_t done = 0;
+  bool is_stopped = false;
   parallel_for(tiles, params.threads, [&](std::size_t i) {
     const int left = static_cast<int>(i) % columns * kTile, top = static_cast<int>(i) / columns * kTile;
     Workspace workspace;
@@ -476,7 +478,10 @@ PathTraceResult trace_paths(const Scene& scene, const Light& light, const PathTr
               result);
     const std::lock_guard lock(mutex);
     result.rays += workspace.rays;
-    report_progress(progress, static_cast<double>(++done) / static_cast<double>(tiles));
+    // Who has asked to stop is not asked again by the tiles that were already begun.
+    if (is_stopped) throw Cancelled();
+    is_stopped = progress && !progress(static_cast<double>(++done) / static_cast<double>(tiles));
+    if (is_stopped) throw Cancelled();
   });
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
