@@ -128,6 +128,10 @@ void Program::set(const char* name, Vec3f value) const {
   glUniform3f(location(name), value.x, value.y, value.z);
 }
 
+void Program::set(const char* name, std::span<const float> values) const {
+  if (!values.empty()) glUniform1fv(location(name), static_cast<GLsizei>(values.size()), values.data());
+}
+
 void Program::set(const char* name, std::span<const Vec3f> values) const {
   static_assert(sizeof(Vec3f) == 3 * sizeof(float));
   if (!values.empty()) glUniform3fv(location(name), static_cast<GLsizei>(values.size()), &values[0].x);

@@ -72,6 +72,7 @@ class Program {
   void set(const char* name, int value) const;
   void set(const char* name, float value) const;
   void set(const char* name, Vec3f value) const;
+  void set(const char* name, std::span<const float> values) const;
   void set(const char* name, std::span<const Vec3f> values) const;
   void set(const char* name, std::span<const Vec4f> values) const;
   void set(const char* name, const Mat3f& value) const;

@@ -62,15 +62,17 @@ gl::Texture upload_table(const SurfaceReflectance& surface) {
                     values.data());
   }
   for (int layer = layers; layer < all_layers; ++layer) {
-    const ReflectanceTable* const albedo =
-        layer == layers ? &surface.highlight->plain : surface.highlight->tinted ? &*surface.highlight->tinted : nullptr;
+    const ReflectanceTable* const albedo = layer == layers             ? &surface.highlight->plain
+                                           : surface.highlight->tinted ? &*surface.highlight->tinted
+                                                                       : nullptr;
     for (std::size_t at = 0; at < entries; ++at)
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t channel = albedo && albedo->channels == 3 ? 3 * at + k : at;
         // The integral of f cos is the first coefficient over that of the constant 1.
         values[4 * at + k] = albedo ? static_cast<float>(std::sqrt(4 * std::numbers::pi)) * albedo->values[channel] : 0;
       }
-    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, plain.width, plain.height, 1, GL_RGBA, GL_FLOAT, values.data());
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, plain.width, plain.height, 1, GL_RGBA, GL_FLOAT,
+                    values.data());
   }
   gl::check_errors("a reflectance table's texture");
   return texture;
@@ -78,8 +80,8 @@ gl::Texture upload_table(const SurfaceReflectance& surface) {
 
 // Half floats, which every OpenGL ES 3.0 interpolates.
 gl::Texture upload_residual(const ResidualLight& residual, const SurfaceHighlight& highlight, double unit) {
-  const int size = prefiltered_size(highlight.width);
-  CubeFaces faces = prefilter_cube(residual, highlight.lobe, size);
+  const int size = prefiltered_size(highlight.lobe.width);
+  const CubeFaces faces = prefilter_cube(residual, highlight.lobe.samples, size);
   gl::Texture texture = gl::make_texture();
   glBindTexture(GL_TEXTURE_CUBE_MAP, texture.id());
   glTexStorage2D(GL_TEXTURE_CUBE_MAP, 1, GL_RGBA16F, size, size);
@@ -110,9 +112,11 @@ gl::Program ReflectanceRenderer::make_program(const Kind& kind, const RgbCoeffic
     return program;
   }
   std::string defines = isotropic ? "" : "#define ANISOTROPIC\n";
-  if (hybrid) defines += fmt::format("#define HIGHLIGHT_LAYER {}\n", num_layers(radiance.bands(), channels, isotropic));
-  const std::string reflect = defines + std::string(shaders::reflect_glsl) +
-                              make_reflectance_glsl({radiance.bands(), channels, isotropic});
+  if (hybrid)
+    defines += fmt::format("#define HIGHLIGHT_LAYER {}\n#define LOBE_TAPS {}\n",
+                           num_layers(radiance.bands(), channels, isotropic), kLobeTaps);
+  const std::string reflect =
+      defines + std::string(shaders::reflect_glsl) + make_reflectance_glsl({radiance.bands(), channels, isotropic});
   gl::Program program = shade == Shade::kPixel ? gl::Program(shaders::mesh_vert, shaders::surface_frag,
                                                              std::string(shaders::reflectance_frag) + reflect)
                                                : gl::Program(std::string(shaders::reflectance_vertex_vert) + reflect,
@@ -132,7 +136,9 @@ ReflectanceRenderer::ReflectanceRenderer(std::span<const SurfaceReflectance> sur
     if (surface.plain) SHLIGHT_ASSERT_EQ(surface.plain->bands, radiance.bands());
     if (!programs_.contains(kind)) programs_.emplace(kind, make_program(kind, radiance, shade));
     surfaces_.push_back({&programs_.at(kind), surface.plain ? upload_table(surface) : gl::Texture(),
-                         hybrid ? upload_residual(*residual, *surface.highlight, unit) : gl::Texture()});
+                         hybrid ? upload_residual(*residual, *surface.highlight, unit) : gl::Texture(),
+                         hybrid ? surface.highlight->lobe.slopes : std::vector<float>(),
+                         hybrid && surface.highlight->lobe.wide_along_x});
     needs_tangents_ = needs_tangents_ || !kind.isotropic;
   }
 }
@@ -151,6 +157,9 @@ void ReflectanceRenderer::draw(const GpuScene& scene, const View& view, const Ro
     glBindTexture(GL_TEXTURE_2D_ARRAY, surface.table.id());
     glActiveTexture(GL_TEXTURE2);
     glBindTexture(GL_TEXTURE_CUBE_MAP, surface.residual.id());
+    surface.program->use();
+    surface.program->set("u_slopes", surface.slopes);
+    surface.program->set("u_wide_along_x", surface.wide_along_x ? 1 : 0);
     return *surface.program;
   };
   scene.draw(program_of, view, light_to_world);

@@ -1,17 +1,17 @@
 #pragma once
 
-#include <cstddef>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
 #include <vector>
 
-#include "shlight/scene/camera.h"
 #include "shlight/render/gl.h"
 #include "shlight/render/gpu_scene.h"
 #include "shlight/render/residual_light.h"
 #include "shlight/render/surface_reflectance.h"
+#include "shlight/scene/camera.h"
 #include "shlight/sh/coefficients.h"
 #include "shlight/sh/rotation.h"
 
@@ -26,9 +26,9 @@ enum class Shade { kPixel, kVertex };
 // current context.
 //
 // The hybrid method, after [2], adds what the coefficients leave out of highlights: the residual of the light, averaged
-// over the lobe that the surface shows an eye right above and mirrored into place, times the lobe's albedo for the view.
-// Coefficients and residual add up to the light, so that a slim lobe shows the light itself, and a wide one, over which
-// the residual averages to nothing, what the reflectance method shows.
+// over the lobe that the surface shows an eye right above and mirrored into place, times the lobe's albedo for the
+// view. Coefficients and residual add up to the light, so that a slim lobe shows the light itself, and a wide one, over
+// which the residual averages to nothing, what the reflectance method shows.
 //
 // [1] Kautz, Sloan, Snyder 2002, Fast, Arbitrary BRDF Shading for Low-Frequency Lighting Using Spherical Harmonics,
 //     Eurographics Workshop on Rendering.
@@ -60,6 +60,8 @@ class ReflectanceRenderer {
   struct Surface {
     const gl::Program* program;
     gl::Texture table, residual;
+    std::vector<float> slopes;  // of LobeFromAbove
+    bool wide_along_x;
   };
 
   gl::Program make_program(const Kind& kind, const RgbCoefficients& radiance, Shade shade) const;

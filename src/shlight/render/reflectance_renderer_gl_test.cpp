@@ -126,7 +126,9 @@ TEST_F(ReflectanceRendererTest, GlossyMaterialsOfScenesTakeTheirBaseColors) {
     // And the base colour in the model itself says the same.
     const Rgb base = {base_color_.x, base_color_.y, base_color_.z};
     const SurfaceReflectance whole = {
-        make_reflectance_table(*make_metallic_roughness(base, gloss.metallic, gloss.roughness), table_params(5)), {}};
+        make_reflectance_table(*make_metallic_roughness(base, gloss.metallic, gloss.roughness), table_params(5)),
+        {},
+        {}};
     expect_as_in_double(image, whole, base_color_, light, std::to_string(gloss.metallic));
   }
 }
@@ -219,7 +221,7 @@ Rgb reflected_to_front(const Brdf& brdf, const Image& picture) {
 
 // Smooth enough for pixels, with far more than five bands.
 Image make_spotty_picture() {
-  Image picture(1024, 512);
+  Image picture(512, 256);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
       const Vec3d d = *direction_at(Layout::kLatLong, {(x + 0.5) / picture.width, (y + 0.5) / picture.height});
@@ -234,11 +236,11 @@ TEST_F(ReflectanceRendererTest, HybridHighlightsAreThoseOfTheWholeLight) {
   const auto light = std::make_unique<ImageLight>(Environment{picture, Layout::kLatLong});
   RenderParams params = parallel_params(5);
   double gained = 0;
-  for (const char* material : {"ggx:alpha=0.1,f0=0.8", "ggx:alpha=0.25,f0=0.9/0.6/0.3", "ggx:alpha=0.8,f0=0.8",
-                               "cook-torrance:m=0.15,f0=0.7", "ward:sigma=0.15"}) {
+  for (const char* material : {"ggx:alpha=0.1,f0=0.9/0.6/0.3", "ggx:alpha=0.8,f0=0.8", "cook-torrance:m=0.15,f0=0.7",
+                               "ggx-aniso:ax=0.1,ay=0.3,f0=0.8"}) {
     const auto brdf = make_brdf(material);
     const auto surfaces = make_surface_reflectances(sphere_, *brdf, table_params(5), true);
-    const RenderLight lit = {light->project(5), picture};
+    const RenderLight lit = {light->project(5, 0), picture};
     const Rgb hybrid = render_hybrid(sphere_, surfaces, lit, params).radiance.rgb(kSize / 2, kSize / 2);
     const Rgb alone = draw(sphere_, surfaces, lit.coefficients, params).rgb(kSize / 2, kSize / 2);
     const Rgb expected = reflected_to_front(*brdf, picture);
@@ -253,12 +255,13 @@ TEST_F(ReflectanceRendererTest, HybridMirrorShowsTheLight) {
   const Image picture = make_spotty_picture();
   const auto light = std::make_unique<ImageLight>(Environment{picture, Layout::kLatLong});
   const auto surfaces = make_surface_reflectances(sphere_, *make_brdf("ggx:alpha=0.01,f0=1"), table_params(5), true);
-  const Image image = render_hybrid(sphere_, surfaces, {light->project(5), picture}, parallel_params(5)).radiance;
+  const Image image = render_hybrid(sphere_, surfaces, {light->project(5, 0), picture}, parallel_params(5)).radiance;
   const Environment environment = {picture, Layout::kLatLong};
   for (int x = kSize / 5; x < kSize - kSize / 5; x += 3) {
     const double nx = ((x + 0.5) / kSize - 0.5) / 0.47, nz = std::sqrt(1 - nx * nx);
     const Rgb expected = eval_bilinear(environment, {2 * nz * nx, 0, 2 * nz * nz - 1});
-    EXPECT_NEAR(image.rgb(x, kSize / 2).r, expected.r, 0.05 * expected.r + 0.02) << x;
+    // Facets of α = 0.01 still scatter some of the spot.
+    EXPECT_NEAR(image.rgb(x, kSize / 2).r, expected.r, 0.08 * expected.r + 0.02) << x;
   }
 }
 

@@ -116,8 +116,9 @@ RenderResult render_irradiance(const Scene& scene, const RenderLight& light, con
 RenderResult render_reflectance(const Scene& scene, std::span<const SurfaceReflectance> surfaces,
                                 const RenderLight& light, const RenderParams& params, const Progress& progress) {
   SHLIGHT_ASSERT_EQ(surfaces.size(), scene.materials.size());
-  return render(scene, light, params, progress,
-                [&](const RgbCoefficients& radiance, double) { return ReflectanceRenderer(surfaces, radiance, params.shade); });
+  return render(scene, light, params, progress, [&](const RgbCoefficients& radiance, double) {
+    return ReflectanceRenderer(surfaces, radiance, params.shade);
+  });
 }
 
 RenderResult render_hybrid(const Scene& scene, std::span<const SurfaceReflectance> surfaces, const RenderLight& light,

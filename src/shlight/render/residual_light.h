@@ -32,7 +32,9 @@ class ResidualLight {
 using CubeFaces = std::array<Image, 6>;
 CubeFaces prefilter_cube(const ResidualLight& light, std::span<const LobeSample> lobe, int size);
 
-// A size whose pixels are slim enough for a lobe of this width (BrdfLobe::width_x), a power of two.
+// A size whose pixels are slim enough for a lobe of this width (BrdfLobe::width_x), a power of two; and how many
+// samples of the lobe are enough for no noise to be seen: wide lobes have few pixels, and are given more.
 int prefiltered_size(double width);
+int num_prefilter_samples(double width);
 
 }  // namespace shlight

@@ -15,9 +15,7 @@ constexpr int kBands = 5;
 
 struct StudioLight {
   StudioLight()
-      : light(make_builtin_light("builtin:studio")),
-        picture(light->lat_long(512)),
-        coefficients(light->project(kBands)) {}
+      : light(make_builtin_light("studio")), picture(light->lat_long(512)), coefficients(light->project(kBands)) {}
   std::unique_ptr<Light> light;
   Image picture;
   RgbCoefficients coefficients;
@@ -60,12 +58,17 @@ TEST(SlimLobe, SamplesAreAKernelAroundTheNormal) {
     ASSERT_TRUE(slim) << material;
     Vec3d mean;
     double sum = 0;
-    for (const LobeSample& sample : sample_lobe_from_above(*slim, 256)) {
+    const LobeFromAbove lobe = sample_lobe_from_above(*slim, 256);
+    for (const LobeSample& sample : lobe.samples) {
       EXPECT_NEAR(dot(sample.direction, sample.direction), 1, 1e-9);
       EXPECT_GT(sample.weight, 0);
       sum += sample.weight;
       mean = mean + sample.weight * sample.direction;
     }
+    const bool anisotropic = brdf->traits().symmetry != BrdfSymmetry::kIsotropic;
+    ASSERT_EQ(lobe.slopes.size(), anisotropic ? kLobeTaps : 1u) << material;
+    for (std::size_t k = 0; k < lobe.slopes.size(); ++k)
+      EXPECT_NEAR(lobe.slopes[k], -lobe.slopes[lobe.slopes.size() - 1 - k], 0.05) << material;
     EXPECT_NEAR(sum, 1, 1e-9) << material;
     EXPECT_NEAR(mean.x, 0, 0.02) << material;
     EXPECT_NEAR(mean.y, 0, 0.02) << material;

@@ -11,7 +11,8 @@ namespace {
 constexpr double kSlim = 1;
 
 bool is_slim(const BrdfLobe& lobe) {
-  return lobe.shape == LobeShape::kHalfVector && std::min(lobe.width_x, lobe.width_y) < kSlim;
+  return (lobe.shape == LobeShape::kHalfVector || lobe.shape == LobeShape::kGrooves) &&
+         std::min(lobe.width_x, lobe.width_y) < kSlim;
 }
 
 class SlimLobes : public Brdf {
@@ -50,15 +51,16 @@ std::unique_ptr<Brdf> make_slim_lobes(const Brdf& brdf) {
   return std::make_unique<SlimLobes>(brdf, std::move(traits), std::move(lobes));
 }
 
-double slimmest_width(const Brdf& brdf) {
-  double width = kSlim;
-  for (const BrdfLobe& lobe : brdf.lobes()) width = std::min({width, lobe.width_x, lobe.width_y});
-  return width;
-}
+LobeFromAbove sample_lobe_from_above(const Brdf& brdf, int count) {
+  LobeFromAbove lobe;
+  double along = kSlim, across = kSlim;
+  for (const BrdfLobe& part : brdf.lobes())
+    along = std::min(along, part.width_x), across = std::min(across, part.width_y);
+  lobe.width = std::min(along, across);
+  lobe.wide_along_x = along > across;
 
-std::vector<LobeSample> sample_lobe_from_above(const Brdf& brdf, int count) {
   const Vec3d v = {0, 0, 1};
-  std::vector<LobeSample> samples;
+  std::vector<std::pair<double, double>> wide_slopes;  // and their weights
   double sum = 0;
   for (int i = 0; i < count; ++i) {
     // Strata of the choice between lobes, in the sequence of the samples.
@@ -66,13 +68,30 @@ std::vector<LobeSample> sample_lobe_from_above(const Brdf& brdf, int count) {
     if (!(s.z > 0)) continue;
     const double pdf = sample_brdf_pdf(brdf, s, v), weight = luminance(brdf.eval(s, v)) * s.z / pdf;
     if (!(weight > 0)) continue;
-    const double turn = 2 * std::numbers::pi * spread(i, 2), c = std::cos(turn), sine = std::sin(turn);
-    // Seen from above, the mirrored direction is the normal.
-    samples.push_back({{c * s.x - sine * s.y, sine * s.x + c * s.y, s.z}, weight, 1 / (count * pdf)});
     sum += weight;
+    // Half vectors whose wide slope is shrunk to the slim one's width, and their direction to the light.
+    double x = s.x / (1 + s.z), y = s.y / (1 + s.z);
+    double& wide = lobe.wide_along_x ? x : y;
+    wide_slopes.push_back({wide, weight});
+    wide *= lobe.width / std::max(along, across);
+    const double scale = 2 / (1 + x * x + y * y);
+    // Seen from above, the mirrored direction is the normal.
+    lobe.samples.push_back(
+        {{scale * x, scale * y, scale - 1}, weight, lobe.width / std::max(along, across) / (count * pdf)});
   }
-  for (LobeSample& sample : samples) sample.weight /= sum;
-  return samples;
+  for (LobeSample& sample : lobe.samples) sample.weight /= sum;
+  if (along == across) return lobe;
+  // The middle of each of kLobeTaps equal parts of the lobe, from one end of its wide side to the other.
+  std::ranges::sort(wide_slopes);
+  lobe.slopes.clear();
+  double below = 0;
+  for (const auto& [slope, weight] : wide_slopes) {
+    below += weight / sum;
+    while (static_cast<int>(lobe.slopes.size()) < kLobeTaps &&
+           below > (static_cast<double>(lobe.slopes.size()) + 0.5) / kLobeTaps)
+      lobe.slopes.push_back(static_cast<float>(slope));
+  }
+  return lobe;
 }
 
 }  // namespace shlight

@@ -20,11 +20,18 @@ struct LobeSample {
 // nullptr where the model has none.
 std::unique_ptr<Brdf> make_slim_lobes(const Brdf& brdf);
 
-// The smaller of a model's widths.
-double slimmest_width(const Brdf& brdf);
+// Where light comes from that a model of slim lobes reflects to an eye right above, as a kernel around the mirrored
+// direction. Of an anisotropic model it is as slim both ways as the slimmer of the two, and what makes it wide the
+// other way are copies of it: around the directions mirrored at half vectors of these slopes along x or y.
+struct LobeFromAbove {
+  std::vector<LobeSample> samples;
+  double width = 1;                 // the smaller BrdfLobe::width_x or _y
+  std::vector<float> slopes = {0};  // kLobeTaps where the widths differ, all of the same weight
+  bool wide_along_x = false;
+};
+inline constexpr int kLobeTaps = 16;
 
-// Where light comes from that `brdf` reflects to an eye right above, as a kernel around the mirrored direction: the lobe
-// is then symmetric about the normal; of an anisotropic model, the mean over all tangents. Deterministic.
-std::vector<LobeSample> sample_lobe_from_above(const Brdf& brdf, int count);
+// Deterministic.
+LobeFromAbove sample_lobe_from_above(const Brdf& brdf, int count);
 
 }  // namespace shlight

@@ -4,19 +4,18 @@
 
 #include "shlight/brdf/metallic_roughness.h"
 #include "shlight/core/assert.h"
+#include "shlight/render/residual_light.h"
 
 namespace shlight {
 namespace {
-
-// Samples of a lobe: enough for no noise to be seen in what a pyramid has smoothed.
-constexpr int kLobeSamples = 256;
 
 std::optional<SurfaceHighlight> make_highlight(const Brdf& brdf, ReflectanceTableParams params) {
   const auto slim = make_slim_lobes(brdf);
   if (!slim) return std::nullopt;
   params.bands = 1;
-  return SurfaceHighlight{make_reflectance_table(*slim, params), {}, sample_lobe_from_above(*slim, kLobeSamples),
-                          slimmest_width(*slim)};
+  const LobeFromAbove few = sample_lobe_from_above(*slim, 16);
+  return SurfaceHighlight{
+      make_reflectance_table(*slim, params), {}, sample_lobe_from_above(*slim, num_prefilter_samples(few.width))};
 }
 
 // What is linear in the base colour, by black and white: plain, and what is to be tinted.

@@ -11,14 +11,13 @@
 
 namespace shlight {
 
-// A surface's slim lobes (slim_lobe.h), for the light beyond the tables' bands: how much of what comes from the mirrored
-// direction's surroundings they reflect to each view, as tables of one band and of the size of those below, and over
-// which surroundings.
+// A surface's slim lobes (slim_lobe.h), for the light beyond the tables' bands: how much of what comes from the
+// mirrored direction's surroundings they reflect to each view, as tables of one band and of the size of those below,
+// and over which surroundings.
 struct SurfaceHighlight {
   ReflectanceTable plain;
   std::optional<ReflectanceTable> tinted;
-  std::vector<LobeSample> lobe;
-  double width = 1;
+  LobeFromAbove lobe;
 };
 
 // How a surface reflects, as reflectance coefficients of all views: radiance = Σ L_i (plain_i + base colour ·

@@ -8,7 +8,9 @@
 uniform highp sampler2DArray u_reflectance;
 
 #ifdef HIGHLIGHT_LAYER
-uniform highp samplerCube u_residual;  // averaged over the highlight
+uniform highp samplerCube u_residual;  // averaged over the slim side of the highlight
+uniform float u_slopes[LOBE_TAPS];     // of half vectors along its wide side; the first alone where it is isotropic
+uniform bool u_wide_along_x;
 #endif
 
 void eval_reflectance(vec3 n, vec3 t, out vec3 plain, out vec3 tinted);
@@ -54,7 +56,13 @@ void reflect_light(vec3 n, vec3 tangent, vec3 to_eye, out vec3 plain, out vec3 t
   g_share = place - vec2(g_first);
   eval_reflectance(n, t, plain, tinted);
 #ifdef HIGHLIGHT_LAYER
+#ifdef ANISOTROPIC
+  vec3 residual = vec3(0.0), wide = u_wide_along_x ? t : cross(n, t);
+  for (int k = 0; k < LOBE_TAPS; ++k)
+    residual += 1.0 / float(LOBE_TAPS) * textureLod(u_residual, reflect(-v, normalize(n + u_slopes[k] * wide)), 0.0).rgb;
+#else
   vec3 residual = textureLod(u_residual, reflect(-v, n), 0.0).rgb;
+#endif
   plain += residual * reflectance_texel(HIGHLIGHT_LAYER).rgb;
   tinted += residual * reflectance_texel(HIGHLIGHT_LAYER + 1).rgb;
 #endif
