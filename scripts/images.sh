@@ -40,6 +40,30 @@ for window in none auto; do
 done
 side_by_side "$images/ringing.png" "$work"/ringing_{sphere,knot}_none.png "$work"/ringing_{sphere,knot}_auto.png
 
+# Every kind of material in three roughnesses, each with 3, 5 and 8 bands and hybrid.
+material_row() {
+  local row=$1 roughness=0 pictures=() material how
+  shift
+  for material in "$@"; do
+    for how in '--bands 3' '--bands 5' '--bands 8' '--method hybrid'; do
+      # shellcheck disable=SC2086
+      "$shlight" render builtin:sphere --light builtin:studio --material "$material" $how --camera 30,12 \
+        --size 110x110 --no-background -o "$work/material_${row}_${#pictures[@]}.png"
+      pictures+=("$work/material_${row}_${#pictures[@]}.png")
+    done
+  done
+  oiiotool "${pictures[@]}" --mosaic:pad=2 12x1 -o "$work/materials_$row.png"
+}
+material_row 1 ggx:alpha={0.05,0.2,0.5},f0=0.9/0.65/0.3
+material_row 2 ggx-aniso:ax={0.05,0.1,0.2},ay=0.5,f0=0.9/0.65/0.3
+material_row 3 cook-torrance:m={0.1,0.3,0.6},f0=0.9
+material_row 4 ward:rd=0.1/0.02/0.02,rs=0.4,sigma={0.05,0.15,0.4}
+material_row 5 ward-aniso:rd=0.02/0.05/0.1,rs=0.4,sx={0.05,0.1,0.2},sy=0.5
+material_row 6 blinn-phong:rd=0.05/0.1/0.05,rs=0.4,n={200,50,10}
+material_row 7 oren-nayar:rho=0.8/0.6/0.5,sigma={0,0.4,1}
+material_row 8 metallic-roughness:base=0.7/0.1/0.1,metallic=0,roughness={0.2,0.45,0.8}
+oiiotool "$work"/materials_{1,2,3,4,5,6,7,8}.png --mosaic:pad=2 1x8 -o "$images/materials.png"
+
 # What compression costs: bytes of a vertex's transfer against the change of radiance under the built-in lights.
 bake_points() {
   local points=$1 compression

@@ -81,7 +81,7 @@ gl::Texture upload_table(const SurfaceReflectance& surface) {
 // Half floats, which every OpenGL ES 3.0 interpolates.
 gl::Texture upload_residual(const ResidualLight& residual, const SurfaceHighlight& highlight, double unit) {
   const int size = prefiltered_size(highlight.lobe.width);
-  const CubeFaces faces = prefilter_cube(residual, highlight.lobe.samples, size);
+  const CubeFaces faces = prefilter_cube(residual, highlight.lobe, size);
   gl::Texture texture = gl::make_texture();
   glBindTexture(GL_TEXTURE_CUBE_MAP, texture.id());
   glTexStorage2D(GL_TEXTURE_CUBE_MAP, 1, GL_RGBA16F, size, size);

@@ -125,7 +125,7 @@ RenderResult render_hybrid(const Scene& scene, std::span<const SurfaceReflectanc
                            const RenderParams& params, const Progress& progress) {
   SHLIGHT_ASSERT_EQ(surfaces.size(), scene.materials.size());
   if (light.background.num_pixels() == 0) return render_reflectance(scene, surfaces, light, params, progress);
-  const ResidualLight residual(light.background, resize_bands(light.coefficients, params.bands));
+  const ResidualLight residual(light.background, taken_by_highlights(resize_bands(light.coefficients, params.bands)));
   return render(scene, light, params, progress, [&](const RgbCoefficients& radiance, double unit) {
     return ReflectanceRenderer(surfaces, radiance, params.shade, &residual, unit);
   });

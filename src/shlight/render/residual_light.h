@@ -20,6 +20,8 @@ class ResidualLight {
 
   // The mean over about 2^level x 2^level pixels of the finest cube map around `direction`.
   Rgb eval(Vec3d direction, double level) const;
+  // A cube map of about this size, its faces below each other.
+  const Environment& level_of_size(int size) const;
   // Of the finest cube map, on average.
   double pixel_solid_angle() const;
 
@@ -28,9 +30,11 @@ class ResidualLight {
 };
 
 // Six square faces of size x size pixels in OpenGL's sequence and orientation (+X −X +Y −Y +Z −Z), rows as glTexImage2D
-// takes them: the mean of the light over `lobe` turned around each pixel's direction. All threads.
+// takes them: the mean of the light over `lobe` turned around each pixel's direction. Small faces, those of wide lobes,
+// are summed over all pixels of a level, so that small bright lamps leave no pattern; large ones over the lobe's
+// samples. All threads.
 using CubeFaces = std::array<Image, 6>;
-CubeFaces prefilter_cube(const ResidualLight& light, std::span<const LobeSample> lobe, int size);
+CubeFaces prefilter_cube(const ResidualLight& light, const LobeFromAbove& lobe, int size);
 
 // A size whose pixels are slim enough for a lobe of this width (BrdfLobe::width_x), a power of two; and how many
 // samples of the lobe are enough for no noise to be seen: wide lobes have few pixels, and are given more.

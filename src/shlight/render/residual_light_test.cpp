@@ -77,6 +77,27 @@ TEST(SlimLobe, SamplesAreAKernelAroundTheNormal) {
   EXPECT_FALSE(make_slim_lobes(*make_brdf("oren-nayar")));
 }
 
+TEST(PrefilterCube, SamplesAndSumsOverAllPixelsAgree) {
+  const StudioLight studio;
+  const ResidualLight residual(studio.picture, studio.coefficients);
+  const auto brdf = make_brdf("ggx:alpha=0.1,f0=1");
+  const LobeFromAbove lobe = sample_lobe_from_above(*brdf, 256);
+  const CubeFaces summed = prefilter_cube(residual, lobe, 32), sampled = prefilter_cube(residual, lobe, 128);
+  double largest = 0, error = 0;
+  for (std::size_t face = 0; face < 6; ++face)
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x) {
+        // The four pixels around the same point.
+        Rgb mean;
+        for (const int dy : {1, 2})
+          for (const int dx : {1, 2}) mean += 0.25 * sampled[face].rgb(4 * x + dx, 4 * y + dy);
+        largest = std::max(largest, std::abs(mean.g));
+        error += std::abs(mean.g - summed[face].rgb(x, y).g) / (6 * 32 * 32);
+      }
+  // Pixels of 1.4° in the one and of 0.7° in the other.
+  EXPECT_LT(error, 0.01 * largest);
+}
+
 TEST(PrefilterCube, FacesAreOpenGls) {
   // A light that is its direction: each face's middle is its axis, its first row and column the table's.
   Image picture(256, 128);
@@ -86,8 +107,9 @@ TEST(PrefilterCube, FacesAreOpenGls) {
       picture.set_rgb(x, y, {d.x, d.y, d.z});
     }
   const ResidualLight residual(picture, RgbCoefficients(1));
-  const LobeSample straight[] = {{{0, 0, 1}, 1, 1e-9}};
-  const CubeFaces faces = prefilter_cube(residual, straight, 8);
+  LobeFromAbove narrow;  // about 6°
+  for (int i = 0; i <= 100; ++i) narrow.profile.push_back(i <= 8 ? 1.0f : 0.0f);
+  const CubeFaces faces = prefilter_cube(residual, narrow, 8);
   const Vec3d axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   const Vec3d right[] = {{0, 0, -1}, {0, 0, 1}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}};
   const Vec3d down[] = {{0, -1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {0, -1, 0}, {0, -1, 0}};

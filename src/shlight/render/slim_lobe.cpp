@@ -60,6 +60,14 @@ LobeFromAbove sample_lobe_from_above(const Brdf& brdf, int count) {
   lobe.wide_along_x = along > across;
 
   const Vec3d v = {0, 0, 1};
+  constexpr int kProfile = 2048;
+  for (int i = 0; i <= kProfile; ++i) {
+    const double half = std::numbers::sqrt2 / 2 * i / kProfile, theta = 2 * std::asin(half);
+    const double sine = std::sin(theta), cosine = std::max(std::cos(theta), 0.0);
+    const Vec3d s = lobe.wide_along_x ? Vec3d{0, sine, cosine} : Vec3d{sine, 0, cosine};
+    lobe.profile.push_back(static_cast<float>(luminance(brdf.eval(s, v)) * cosine));
+  }
+
   std::vector<std::pair<double, double>> wide_slopes;  // and their weights
   double sum = 0;
   for (int i = 0; i < count; ++i) {

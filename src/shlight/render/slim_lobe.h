@@ -25,7 +25,8 @@ std::unique_ptr<Brdf> make_slim_lobes(const Brdf& brdf);
 // other way are copies of it: around the directions mirrored at half vectors of these slopes along x or y.
 struct LobeFromAbove {
   std::vector<LobeSample> samples;
-  double width = 1;                 // the smaller BrdfLobe::width_x or _y
+  std::vector<float> profile;  // the kernel against sin(θ/2), θ from 0 to 90° in equal steps of that, of any scale
+  double width = 1;            // the smaller BrdfLobe::width_x or _y
   std::vector<float> slopes = {0};  // kLobeTaps where the widths differ, all of the same weight
   bool wide_along_x = false;
 };

@@ -5,13 +5,24 @@
 #include "shlight/brdf/metallic_roughness.h"
 #include "shlight/core/assert.h"
 #include "shlight/render/residual_light.h"
+#include "shlight/sh/window.h"
 
 namespace shlight {
 namespace {
 
-std::optional<SurfaceHighlight> make_highlight(const Brdf& brdf, ReflectanceTableParams params) {
+// Makes the highlight of a model and windows its slim lobes in the table, which has all lobes.
+std::optional<SurfaceHighlight> make_highlight(const Brdf& brdf, ReflectanceTableParams params,
+                                               ReflectanceTable& table) {
   const auto slim = make_slim_lobes(brdf);
   if (!slim) return std::nullopt;
+  const ReflectanceTable lobes = make_reflectance_table(*slim, params);
+  SHLIGHT_ASSERT_EQ(lobes.values.size(), table.values.size());
+  std::vector<float> taken;  // of each number of an entry
+  for (int l = 0; l < table.bands; ++l)
+    taken.insert(taken.end(), static_cast<std::size_t>((table.isotropic() ? l + 1 : 2 * l + 1) * table.channels),
+                 static_cast<float>(1 - window_factor(Window::kHann, 1.0 / table.bands, l)));
+  for (std::size_t i = 0; i < table.values.size(); ++i) table.values[i] -= taken[i % taken.size()] * lobes.values[i];
+
   params.bands = 1;
   const LobeFromAbove few = sample_lobe_from_above(*slim, 16);
   return SurfaceHighlight{
@@ -31,20 +42,25 @@ SurfaceReflectance make_glossy(const MetallicRoughness& gloss, const Reflectance
   const auto black_brdf = brdf_of(0), white_brdf = brdf_of(1);
   ReflectanceTable black = make_reflectance_table(*black_brdf, params);
   ReflectanceTable white = make_reflectance_table(*white_brdf, params);
+  std::optional<SurfaceHighlight> highlight;
+  if (highlights) {
+    highlight = make_highlight(*white_brdf, params, white);
+    if (highlight) {
+      const auto black_highlight = make_highlight(*black_brdf, params, black);
+      highlight->tinted = std::move(highlight->plain);
+      highlight->plain = black_highlight->plain;
+      subtract(highlight->plain, *highlight->tinted);
+    }
+  }
   subtract(black, white);
-  SurfaceReflectance surface = {std::move(black), std::move(white), {}};
-  if (!highlights) return surface;
-  surface.highlight = make_highlight(*white_brdf, params);
-  if (!surface.highlight) return surface;
-  ReflectanceTable tinted = std::move(surface.highlight->plain);
-  const auto black_highlight = make_highlight(*black_brdf, params);
-  surface.highlight->plain = black_highlight->plain;
-  subtract(surface.highlight->plain, tinted);
-  surface.highlight->tinted = std::move(tinted);
-  return surface;
+  return {std::move(black), std::move(white), std::move(highlight)};
 }
 
 }  // namespace
+
+RgbCoefficients taken_by_highlights(const RgbCoefficients& light) {
+  return apply_window(Window::kHann, 1.0 / light.bands(), light);
+}
 
 std::vector<SurfaceReflectance> make_surface_reflectances(const Scene& scene, const ReflectanceTableParams& params,
                                                           bool highlights, const Progress& progress) {
@@ -64,7 +80,7 @@ std::vector<SurfaceReflectance> make_surface_reflectances(const Scene& scene, co
 std::vector<SurfaceReflectance> make_surface_reflectances(const Scene& scene, const Brdf& brdf,
                                                           const ReflectanceTableParams& params, bool highlights) {
   SurfaceReflectance surface = {make_reflectance_table(brdf, params), {}, {}};
-  if (highlights) surface.highlight = make_highlight(brdf, params);
+  if (highlights) surface.highlight = make_highlight(brdf, params, *surface.plain);
   return {scene.materials.size(), surface};
 }
 

@@ -8,10 +8,11 @@
 #include "shlight/core/progress.h"
 #include "shlight/render/slim_lobe.h"
 #include "shlight/scene/scene.h"
+#include "shlight/sh/coefficients.h"
 
 namespace shlight {
 
-// A surface's slim lobes (slim_lobe.h), for the light beyond the tables' bands: how much of what comes from the
+// A surface's slim lobes (slim_lobe.h), for the light beyond the first bands: how much of what comes from the
 // mirrored direction's surroundings they reflect to each view, as tables of one band and of the size of those below,
 // and over which surroundings.
 struct SurfaceHighlight {
@@ -31,9 +32,15 @@ struct SurfaceReflectance {
 
 // Of each material of the scene: glTF's metallic-roughness where it has gloss, which is linear in the base colour and
 // so takes any texture; else Lambertian. Materials of equal gloss are computed once each. Throws Cancelled.
-// `highlights`: whether those are made too.
+// `highlights`: whether those are made too. Slim lobes in the tables are then windowed as taken_by_highlights has the
+// light.
 std::vector<SurfaceReflectance> make_surface_reflectances(const Scene& scene, const ReflectanceTableParams& params,
                                                           bool highlights = false, const Progress& progress = {});
+
+// What of a light slim lobes reflect by their coefficients, where the rest goes to highlights: its bands through Hann's
+// window, after which hardly any light is negative. What is left to the residual is then mostly the lamps themselves,
+// and does not have to make good in one direction what rings in another.
+RgbCoefficients taken_by_highlights(const RgbCoefficients& light);
 
 // `brdf` for all materials of the scene, whatever their colours and textures.
 std::vector<SurfaceReflectance> make_surface_reflectances(const Scene& scene, const Brdf& brdf,
