@@ -30,7 +30,7 @@ sheet() {
   oiiotool "${tiles[@]}" --mosaic:pad=8 3x2 -o "$file"
 }
 
-sheet "$images/transfer.png" builtin:scene 30,12,1.2
+sheet "$images/transfer.png" builtin:scene 75,20,1.4
 if [[ -n ${SHLIGHT_TEST_DATA:-} ]]; then
   sheet "$images/transfer_models.png" "$SHLIGHT_TEST_DATA/models/dx_skullocc.x" 30,5,1.1
   sheet "$images/transfer_bunny.png" "$SHLIGHT_TEST_DATA/models/bun_zipper.ply" 30,15,1.1
