@@ -140,4 +140,6 @@ octahedral 400
 openexr-lat-long 600
 openexr-cube 100
 END
+
+scripts/transfer_images.sh
 ls -l "$images" "$images/layouts"

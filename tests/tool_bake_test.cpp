@@ -50,7 +50,8 @@ TEST_F(ToolBake, InfoTellsEverything) {
   EXPECT_EQ(info["settings"]["method"], "best");
   for (const char* key : {"vertices", "triangles", "meshes", "instances", "materials", "bounds_min", "bounds_max"})
     EXPECT_EQ(info[key], model[key]) << key;
-  for (const char* key : {"vertices", "rays", "hash", "bytes_per_vertex"}) EXPECT_EQ(info[key], bake[key]) << key;
+  for (const char* key : {"vertices", "rays", "estimated_error", "hash", "bytes_per_vertex"})
+    EXPECT_EQ(info[key], bake[key]) << key;
 }
 
 // Half and a quarter of the bytes, for errors of about one step: 1/32767 and 1/127 of the largest coefficients.

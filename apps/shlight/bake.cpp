@@ -141,6 +141,7 @@ void run_bake(const BakeArguments& arguments) {
                 {"vertices", transfer.num_vertices()},
                 {"triangles", num_triangles(scene)},
                 {"rays", transfer.rays},
+                {"estimated_error", transfer.estimated_error},
                 {"seconds", transfer.seconds},
                 {"rays_per_second", rays_per_second},
                 {"bytes_per_vertex", bytes_per_vertex},

@@ -112,6 +112,7 @@ ordered_json info_of(const Baked& baked) {
   }
   json["bytes_per_vertex"] = baked_bytes_per_vertex(transfer, info);
   json["rays"] = transfer.rays;
+  json["estimated_error"] = transfer.estimated_error;
   json["hash"] = fmt::format("{:016x}", transfer.hash);
   json["settings"] = {{"method", to_text(info.params.method)},
                       {"samples", info.params.samples},

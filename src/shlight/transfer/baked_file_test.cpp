@@ -34,8 +34,9 @@ BakeParams cosine_params(int bands) {
   return params;
 }
 
-// All that a scene can have: two meshes, the second shown first and three times, once sheared and once turned; colours
-// of vertices; texture coordinates on one mesh only, and a textured material on both; alpha in the texture.
+// All that a scene can have: two materials, one with gloss; two meshes, the second shown first and three times, once
+// sheared and once turned; colours of vertices; texture coordinates on one mesh only, and a textured material on both;
+// alpha in the texture.
 Scene make_busy_scene() {
   Scene scene;
   scene.meshes = {make_rounded_box({1, 2, 1}, .1f, 1, 1), make_sphere(1, 3)};
@@ -47,7 +48,7 @@ Scene make_busy_scene() {
   }
   scene.meshes[0].material = 1;
   scene.meshes[1].material = 1;
-  scene.materials = {{"plain", {.1f, .2f, .3f}, {}}, {"wood", {1, .9f, .8f}, 0}};
+  scene.materials = {{"plain", {.1f, .2f, .3f}, {}}, {"wood", {1, .9f, .8f}, 0, MetallicRoughness{.25f, .7f}}};
   Image8 texture = {3, 2, {}};
   for (int i = 0; i < 24; ++i) texture.values.push_back(static_cast<unsigned char>(10 * i + 3));
   scene.textures = {texture};
@@ -82,6 +83,7 @@ Transfer make_any_transfer(const Scene& scene, int bands, int channels) {
   transfer.hash = 0x0123456789abcdef;
   transfer.rays = (1ull << 60) + 1;
   transfer.seconds = 1.0 / 3;
+  transfer.estimated_error = 1.0 / 300;
   return transfer;
 }
 
@@ -124,6 +126,7 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.materials[i].name, b.materials[i].name);
     EXPECT_EQ(a.materials[i].base_color, b.materials[i].base_color);
     EXPECT_EQ(a.materials[i].texture, b.materials[i].texture);
+    EXPECT_EQ(a.materials[i].gloss, b.materials[i].gloss);
   }
   ASSERT_EQ(a.textures.size(), b.textures.size());
   for (std::size_t i = 0; i < a.textures.size(); ++i) {
@@ -142,6 +145,7 @@ void expect_same(const Transfer& a, const Transfer& b) {
   EXPECT_EQ(a.first_vertex, b.first_vertex);
   EXPECT_EQ(a.hash, b.hash);
   EXPECT_EQ(a.rays, b.rays);
+  EXPECT_EQ(a.estimated_error, b.estimated_error);
 }
 
 std::vector<std::byte> make_file(int bands = 2, int channels = 1, bool textured = true) {
@@ -320,6 +324,7 @@ TEST(BakedFile, IsAModelToOthers) {
     }
     const Material &m = scene.materials[a.material], &n = model.materials[b.material];
     EXPECT_EQ(m.base_color, n.base_color);
+    EXPECT_EQ(m.gloss, n.gloss);
     ASSERT_EQ(n.texture.has_value(), !a.texcoords.empty());
     if (n.texture) {
       EXPECT_EQ(model.textures[*n.texture].values, scene.textures[0].values);
@@ -459,6 +464,11 @@ TEST(BakedFile, WhatIsWrongIsSaid) {
   expect("an index into images is 5", [](Json& r) { r["textures"][0]["source"] = 5; });
   expect("flattens or mirrors", [](Json& r) { r["nodes"][1]["matrix"] = std::vector<int>(16, 1); });
   expect("outside of 0 to 1", [](Json& r) { r["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][1] = 2; });
+  expect("a metallicFactor outside of 0 to 1",
+         [](Json& r) { r["materials"][1]["pbrMetallicRoughness"]["metallicFactor"] = 1.5; });
+  expect("roughnessFactor is missing",
+         [](Json& r) { r["materials"][1]["pbrMetallicRoughness"].erase("roughnessFactor"); });
+  expect("an estimated_error below 0", [&](Json& r) { extras(r)["estimated_error"] = -0.1; });
   expect("no nodes", [](Json& r) { r["scenes"][0]["nodes"] = Json::array(); });
   expect("accessors are missing", [](Json& r) { r.erase("accessors"); });
   expect("its JSON is too deep", [](Json& r) {

@@ -18,6 +18,9 @@ inline constexpr std::string_view kBakedHead = "{\"asset\":{\"extras\":{\"shligh
 inline constexpr int kGltfByte = 5120, kGltfShort = 5122, kGltfFloat = 5126, kGltfUnsignedInt = 5125,
                      kGltfArrayBuffer = 34962, kGltfElementBuffer = 34963;
 
+// Where its factor is 0, a material is Lambertian: it has no gloss.
+inline constexpr const char* kSpecularExtension = "KHR_materials_specular";
+
 inline constexpr const char* kOcclusionAttribute = "_AMBIENT_OCCLUSION";
 inline constexpr const char* kBentNormalAttribute = "_BENT_NORMAL";
 // "_SH_TRANSFER_2", or "_SH_TRANSFER_R_2" where there are three channels: coefficients 4k … 4k+3.

@@ -183,6 +183,13 @@ const json& primitive_of(const Reader& reader, std::size_t mesh) {
   return primitives[0];
 }
 
+// A number that is a share of something.
+float read_share(const Reader& reader, const json& value, std::string_view what) {
+  const auto share = static_cast<float>(reader.number(value, what));
+  if (share < 0 || share > 1) reader.fail(fmt::format("a {} outside of 0 to 1", what));
+  return share;
+}
+
 // Materials, and which of them each of the file's is: twins without texture are the same material here.
 std::vector<std::uint32_t> read_materials(const Reader& reader, Scene& scene) {
   std::vector<std::uint32_t> indices;
@@ -199,10 +206,11 @@ std::vector<std::uint32_t> read_materials(const Reader& reader, Scene& scene) {
     const json& color = reader.member(surface, "baseColorFactor");
     if (!color.is_array() || color.size() != 4) reader.fail("a baseColorFactor that is none");
     float* const channels[] = {&material.base_color.x, &material.base_color.y, &material.base_color.z};
-    for (std::size_t c = 0; c < 3; ++c) {
-      *channels[c] = static_cast<float>(reader.number(color[c], "baseColorFactor"));
-      if (*channels[c] < 0 || *channels[c] > 1) reader.fail("a baseColorFactor outside of 0 to 1");
-    }
+    for (std::size_t c = 0; c < 3; ++c) *channels[c] = read_share(reader, color[c], "baseColorFactor");
+    // Only what has no gloss says anything of its highlight.
+    if (!source.contains("extensions"))
+      material.gloss = {read_share(reader, reader.member(surface, "metallicFactor"), "metallicFactor"),
+                        read_share(reader, reader.member(surface, "roughnessFactor"), "roughnessFactor")};
     if (surface.contains("baseColorTexture")) {
       const json& texture = reader.item(reader.member(surface["baseColorTexture"], "index"), "textures");
       material.texture = static_cast<std::uint32_t>(reader.index(reader.member(texture, "source"), "images"));
@@ -360,6 +368,8 @@ void read_extras(const Reader& reader, const json& extras, Baked& baked) {
   if (!is_transfer_bits(info.bits)) reader.fail("bits are not 8, 16 or 32");
   transfer.hash = reader.hexadecimal(extras, "hash");
   transfer.rays = reader.whole(extras, "rays", 0, std::numeric_limits<std::uint64_t>::max());
+  transfer.estimated_error = reader.number(reader.member(extras, "estimated_error"), "estimated_error");
+  if (transfer.estimated_error < 0) reader.fail("an estimated_error below 0");
   if (reader.member(extras, "convention") != json(baked_convention())) reader.fail("its convention is another");
 
   const json& settings = reader.member(extras, "settings");

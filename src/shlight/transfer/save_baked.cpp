@@ -151,10 +151,16 @@ void add_openness(Rows& rows, const Transfer& transfer, std::size_t instance, or
 
 ordered_json json_of(const Material& material, bool textured) {
   const Vec3f c = material.base_color;
-  ordered_json surface = {{"baseColorFactor", {c.x, c.y, c.z, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}};
+  const MetallicRoughness gloss = material.gloss.value_or(MetallicRoughness{});
+  ordered_json surface = {{"baseColorFactor", {c.x, c.y, c.z, 1}},
+                          {"metallicFactor", gloss.metallic},
+                          {"roughnessFactor", gloss.roughness}};
   if (textured && material.texture) surface["baseColorTexture"] = {{"index", *material.texture}};
   // Both sides are drawn here too.
-  return {{"name", material.name}, {"pbrMetallicRoughness", surface}, {"doubleSided", true}};
+  ordered_json json = {{"name", material.name}, {"pbrMetallicRoughness", surface}, {"doubleSided", true}};
+  // glTF's surfaces have a highlight however rough they are, unless they say that they have none.
+  if (!material.gloss) json["extensions"] = {{kSpecularExtension, {{"specularFactor", 0}}}};
+  return json;
 }
 
 // A primitive without texture coordinates must not have a textured material [1, section 3.9.2]: it gets a twin of it.
@@ -225,6 +231,7 @@ ordered_json json_of(const Transfer& transfer, const BakeInfo& info, const order
           {info.pca ? "pca" : "scales", decoding},
           {"hash", fmt::format("{:016x}", transfer.hash)},
           {"rays", transfer.rays},
+          {"estimated_error", transfer.estimated_error},
           {"settings",
            {{"method", to_text(params.method)},
             {"samples", params.samples},
@@ -235,7 +242,8 @@ ordered_json json_of(const Transfer& transfer, const BakeInfo& info, const order
           {"model", info.model}};
 }
 
-void check_fits(const Scene& scene, const Transfer& transfer) {
+// Without assertions there is nothing to do.
+void check_fits([[maybe_unused]] const Scene& scene, [[maybe_unused]] const Transfer& transfer) {
   SHLIGHT_ASSERT_EQ(transfer.first_vertex.size(), scene.instances.size() + 1);
   for (std::size_t i = 0; i < scene.instances.size(); ++i)
     SHLIGHT_ASSERT_EQ(transfer.first_vertex[i] + scene.meshes[scene.instances[i].mesh].positions.size(),
@@ -289,6 +297,8 @@ std::vector<std::byte> format_baked(const Scene& scene, const Transfer& transfer
       {"nodes", std::move(nodes)},
       {"meshes", std::move(meshes)},
       {"materials", std::move(materials.json)}};
+  if (!std::ranges::all_of(scene.materials, [](const Material& material) { return material.gloss.has_value(); }))
+    root["extensionsUsed"] = list_of(kSpecularExtension);
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     const auto png = encode_png(scene.textures[i], fmt::format("{}: texture {}", name, i));
     root["textures"].push_back({{"source", i}});

@@ -91,7 +91,8 @@ struct Transfer {
   double seconds = 0;                     // this call's
   double estimated_error = 0;  // of shadowed transfer, or the shadowed part of interreflected: root mean square over
                                // all vertices and coefficients, relative to the coefficients' own. Measured on some of
-                               // the vertices with other samples, good to about a fifth; 0 for cosine transfer
+                               // the vertices with other samples, good to about a fifth; 0 for cosine transfer. Where
+                               // samples is 0, without openings that are missed with any (docs/transfer.md)
 
   std::size_t num_vertices() const { return ambient_occlusion.size(); }
 };

@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
@@ -303,6 +304,56 @@ BENCHMARK(shadowed_error)
     ->Arg(4096)
     ->Arg(0)
     ->ArgName("samples")
+    ->UseRealTime()
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+
+// The thesis's three models, where SHLIGHT_TEST_DATA names the folder that has them, baked to 3 bands: by its method
+// with as many samples as it took, and by ours. `error` is over all coefficients, relative to their own root mean
+// square: against the closed form, and of shadowed transfer against many more samples with another seed.
+constexpr std::array kThesisModels = {"dx_cube_on_plane.x", "dx_Head_Sad.x", "dx_skullocc.x"};
+struct ThesisBake {
+  const char* name;
+  TransferKind kind;
+  TransferMethod method;
+  int samples;
+};
+constexpr std::array kThesisBakes = {
+    ThesisBake{"cosine, monte-carlo", TransferKind::kCosine, TransferMethod::kMonteCarlo, 10'000},
+    ThesisBake{"cosine, closed form", TransferKind::kCosine, TransferMethod::kBest, 0},
+    ThesisBake{"shadowed, monte-carlo", TransferKind::kShadowed, TransferMethod::kMonteCarlo, 10'000},
+    ThesisBake{"shadowed, auto", TransferKind::kShadowed, TransferMethod::kBest, 0},
+    ThesisBake{"interreflected, auto", TransferKind::kInterreflected, TransferMethod::kBest, 0}};
+
+void bake_thesis_model(benchmark::State& state) {
+  const char* folder = std::getenv("SHLIGHT_TEST_DATA");
+  const std::string model = kThesisModels[static_cast<std::size_t>(state.range(0))];
+  const ThesisBake& bake = kThesisBakes[static_cast<std::size_t>(state.range(1))];
+  state.SetLabel(model + ", " + bake.name);
+  if (folder == nullptr) return state.SkipWithError("SHLIGHT_TEST_DATA names no folder");
+  const Scene scene = make_scene((std::filesystem::path(folder) / "models" / model).string());
+  BakeParams params;
+  params.kind = bake.kind, params.method = bake.method, params.samples = bake.samples, params.bands = 3;
+  Transfer transfer;
+  double seconds = 0;
+  for (auto _ : state) {
+    const double begin = processor_seconds();
+    transfer = bake_transfer(scene, params);
+    seconds += processor_seconds() - begin;
+  }
+  state.counters["vertices"] = static_cast<double>(transfer.num_vertices());
+  state.counters["processor_s"] = seconds / static_cast<double>(state.iterations());
+  state.counters["rays"] = static_cast<double>(transfer.rays);
+  state.counters["estimated"] = transfer.estimated_error;
+  if (bake.kind == TransferKind::kInterreflected) return;
+  params.method = TransferMethod::kBest, params.seed = 99;
+  params.samples = bake.kind == TransferKind::kCosine ? 0 : 8192;
+  state.counters["error"] = relative_difference(transfer, bake_transfer(scene, params));
+}
+BENCHMARK(bake_thesis_model)
+    ->ArgsProduct({benchmark::CreateDenseRange(0, kThesisModels.size() - 1, 1),
+                   benchmark::CreateDenseRange(0, kThesisBakes.size() - 1, 1)})
+    ->ArgNames({"model", "bake"})
     ->UseRealTime()
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
