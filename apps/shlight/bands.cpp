@@ -78,13 +78,16 @@ nlohmann::ordered_json json_of(const std::vector<BandError>& list, const BandErr
 void print_errors_json(const BandsArguments& arguments, const BandErrors& errors, const Enough& enough) {
   nlohmann::ordered_json json = {{"light", arguments.light},
                                  {"material", arguments.material},
-                                 {"model", arguments.model.empty() ? nlohmann::ordered_json() : arguments.model},
                                  {"measure", arguments.measure},
                                  {"tolerance", arguments.tolerance},
                                  {"enough", json_of(enough.plain)},
                                  {"largest", {errors.largest.r, errors.largest.g, errors.largest.b}},
                                  {"reference_error", errors.reference_error},
                                  {"bands", json_of(errors.bands, errors)}};
+  if (!arguments.model.empty()) {
+    json["model"] = arguments.model;
+    json["transfer"] = to_text(arguments.transfer);
+  }
   if (!errors.shaped.empty()) {
     json["window"] = arguments.shape.window;
     json["enough_windowed"] = json_of(enough.windowed);
