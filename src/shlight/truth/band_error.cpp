@@ -20,12 +20,12 @@ namespace {
 using std::numbers::pi;
 
 constexpr int kCosineBands = 128;      // of the reference for Lambertian models
-constexpr int kReflectanceBands = 64;  // for others
+constexpr int kReflectanceBands = 32;  // for others
 constexpr int kCosineNormals = 4096;
 constexpr int kReflectanceNormals = 192;
 constexpr int kPolarViews = 6, kAzimuthViews = 8;
 // Reflectance coefficients, relative to their largest: far below what is measured.
-constexpr ProjectBrdfParams kReflectanceParams = {1e-5, 96};
+constexpr ProjectBrdfParams kReflectanceParams = {1e-4, 48};
 
 // Fibonacci's spiral: equal areas, no two of the same height.
 std::vector<WeightedNormal> make_even_normals(int count) {

@@ -36,7 +36,7 @@ struct BandErrorParams {
   BandShape shape = {};                      // errors with it, too, where there is one
   int threads = 0;                           // 0: all there are; the result has the same bits with any number
 };
-inline constexpr int kMaxErrorBands = 32;
+inline constexpr int kMaxErrorBands = 20;
 
 // A direction's error is taken against the local radiance where that is more than this part of the largest, against
 // this part where it is less: where there is nothing, any error would be infinite.
