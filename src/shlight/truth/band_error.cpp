@@ -19,7 +19,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr int kCosineBands = 128;      // of the reference for Lambertian models
+constexpr int kCosineBands = 64;       // of the reference for Lambertian models
 constexpr int kReflectanceBands = 32;  // for others
 constexpr int kCosineNormals = 4096;
 constexpr int kReflectanceNormals = 192;
@@ -77,6 +77,17 @@ struct View {
   RgbCoefficients reflectance;
 };
 
+// The function with x -> −x or y -> −y: cos mφ and sin mφ keep their values or change their signs.
+RgbCoefficients mirror(const RgbCoefficients& coefficients, bool x, bool y) {
+  RgbCoefficients result = coefficients;
+  for (int l = 0; l < result.bands(); ++l)
+    for (int m = -l; m <= l; ++m) {
+      const bool odd = m % 2 != 0, flipped_by_x = m > 0 ? odd : m < 0 && !odd, flipped_by_y = m < 0;
+      if ((x && flipped_by_x) != (y && flipped_by_y)) result.at(l, m) = -1 * result.at(l, m);
+    }
+  return result;
+}
+
 std::vector<View> make_views(const Brdf& brdf, int threads) {
   std::vector<View> views(kPolarViews * kAzimuthViews);
   const auto view_at = [](int polar, int azimuth) {
@@ -86,18 +97,27 @@ std::vector<View> make_views(const Brdf& brdf, int threads) {
   const auto slot = [&](int polar, int azimuth) -> View& {
     return views[static_cast<std::size_t>(polar * kAzimuthViews + azimuth)];
   };
-  const bool isotropic = brdf.traits().symmetry == BrdfSymmetry::kIsotropic;
-  const int projected = isotropic ? 1 : kAzimuthViews;
+  const BrdfSymmetry symmetry = brdf.traits().symmetry;
+  // What is projected: the first azimuth, the first quarter or all.
+  constexpr int kQuarter = kAzimuthViews / 4;
+  const int projected = symmetry == BrdfSymmetry::kIsotropic  ? 1
+                        : symmetry == BrdfSymmetry::kMirrored ? kQuarter
+                                                              : kAzimuthViews;
   parallel_for(static_cast<std::size_t>(kPolarViews * projected), threads, [&](std::size_t i) {
     const int polar = static_cast<int>(i) / projected, azimuth = static_cast<int>(i) % projected;
     const Vec3d v = view_at(polar, azimuth);
     slot(polar, azimuth) = {v, project_brdf(brdf, v, kReflectanceBands, kReflectanceParams).coefficients};
   });
-  // Turning the view about the normal turns what an isotropic surface reflects.
+  // Turning the view about the normal, or mirroring it, does the same to what the surface reflects.
   for (int polar = 0; polar < kPolarViews; ++polar)
-    for (int azimuth = projected; azimuth < kAzimuthViews; ++azimuth)
+    for (int azimuth = projected; azimuth < kAzimuthViews; ++azimuth) {
+      const int quarter = azimuth / kQuarter, within = azimuth % kQuarter;
+      const RgbCoefficients& twin = slot(polar, quarter % 2 == 0 ? within : kQuarter - 1 - within).reflectance;
       slot(polar, azimuth) = {view_at(polar, azimuth),
-                              rotate_about_z(2 * pi * azimuth / kAzimuthViews, slot(polar, 0).reflectance)};
+                              projected == 1
+                                  ? rotate_about_z(2 * pi * azimuth / kAzimuthViews, slot(polar, 0).reflectance)
+                                  : mirror(twin, quarter == 1 || quarter == 2, quarter >= 2)};
+    }
   return views;
 }
 
