@@ -142,4 +142,9 @@ openexr-cube 100
 END
 
 scripts/transfer_images.sh
-ls -l "$images" "$images/layouts"
+
+# What approximates beside what it approximates; how many bands lights and materials need.
+"$shlight" render builtin:knot --light builtin:studio --bands 3 --camera 20,10,1.2 --size 360x300 --compare \
+  -o "$images/compare.png"
+scripts/bands.py "$shlight" "$PWD"
+ls -l "$images" "$images/layouts" "$images/bands"

@@ -28,6 +28,7 @@ void add_info(CLI::App& program, Run& run);
 void add_demo(CLI::App& program, Run& run);
 void add_convert_map(CLI::App& program, Run& run);
 void add_compare(CLI::App& program, Run& run);
+void add_bands(CLI::App& program, Run& run);
 
 // The help of a LIGHT argument, and of a MODEL.
 extern const char* const kLightHelp;
@@ -53,6 +54,7 @@ struct LightShape {
   std::string window = "none";
 };
 void add_shape_options(CLI::App& command, LightShape& shape);
+void add_window_option(CLI::App& command, LightShape& shape);
 
 // The windowed coefficients; says on stderr what an automatic window did.
 RgbCoefficients apply_window(const LightShape& shape, const RgbCoefficients& coefficients);

@@ -104,6 +104,10 @@ void add_shape_options(CLI::App& command, LightShape& shape) {
           },
           "Turn the light: angles about z, y, z in degrees, a quaternion, or a matrix")
       ->type_name("Z,Y,Z|W,X,Y,Z|9 NUMBERS");
+  add_window_option(command, shape);
+}
+
+void add_window_option(CLI::App& command, LightShape& shape) {
   command
       .add_option(
           "--window", shape.window,

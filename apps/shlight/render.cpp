@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "shlight/brdf/make_brdf.h"
+#include "shlight/truth/path_tracer.h"
 
 namespace shlight::app {
 namespace {
@@ -47,7 +48,13 @@ void check_render_options(const CLI::App& command, RenderArguments& arguments) {
     throw CLI::ValidationError("--material", "only with --method reflectance, hybrid or reference");
   if (given("--material") && arguments.gloss)
     throw CLI::ValidationError("--gloss", "not with --material, which takes the place of the model's own materials");
-  if (given("--shade") && !is_reflectance) throw CLI::ValidationError("--shade", "only with --method reflectance or hybrid");
+  if (given("--shade") && !is_reflectance)
+    throw CLI::ValidationError("--shade", "only with --method reflectance or hybrid");
+  if (given("--compare") && is_reference) throw CLI::ValidationError("--compare", "not with --method reference");
+  if (given("--compare") && arguments.output.extension() == ".exr")
+    throw CLI::ValidationError("--compare", "makes a picture as shown: -o FILE.png");
+  if (given("--compare-samples") && !given("--compare"))
+    throw CLI::ValidationError("--compare-samples", "only with --compare");
   if (given("--bounces") && is_reference && arguments.bake.kind != TransferKind::kInterreflected)
     throw CLI::ValidationError("--bounces", "only with --transfer interreflected");
   if (!is_reference) check_bake_options(command, arguments.bake);
@@ -75,11 +82,12 @@ void add_render(CLI::App& program, Run& run) {
       ->default_str("3, of reflectance 5")
       ->check(CLI::Range(1, kMaxRenderBands).description(fmt::format("1 to {}", kMaxRenderBands)));
   command
-      ->add_option("--method", arguments->method,
-                   "How the model is lit: by its normals; by what is baked for each vertex, now (--transfer) or before "
-                   "where MODEL is a file of shlight bake; by how its materials or --material reflect (hybrid: in highlights "
-                   "all of the light, not only its first bands); or path traced "
-                   "without spherical harmonics, what the others approximate (--transfer, --samples a pixel)")
+      ->add_option(
+          "--method", arguments->method,
+          "How the model is lit: by its normals; by what is baked for each vertex, now (--transfer) or before "
+          "where MODEL is a file of shlight bake; by how its materials or --material reflect (hybrid: in highlights "
+          "all of the light, not only its first bands); or path traced "
+          "without spherical harmonics, what the others approximate (--transfer, --samples a pixel)")
       ->type_name("irradiance|transfer|reflectance|hybrid|reference")
       ->default_str("irradiance, with --material reflectance")
       ->check(CLI::IsMember({"irradiance", "transfer", "reflectance", "hybrid", "reference"}).description(""));
@@ -128,6 +136,11 @@ void add_render(CLI::App& program, Run& run) {
   command->add_flag("--no-background", arguments->no_background, "Do not draw the light behind the model");
   command->add_flag("--mark-negative", params.mark_negative,
                     "Stripes where light of so few bands is below zero (see --window)");
+  command->add_flag("--compare", arguments->compare,
+                    "Draw it beside the path-traced reference and their difference (FLIP), with the errors in numbers");
+  command->add_option("--compare-samples", arguments->compare_samples, "Paths a pixel of the reference of --compare")
+      ->capture_default_str()
+      ->check(CLI::Range(1, kMaxPathSamples).description(fmt::format("1 to {}", kMaxPathSamples)));
   command->add_option("-o,--output", arguments->output, "Picture as shown (.png) or linear radiance (.exr)")
       ->type_name("FILE.png|.exr")
       ->check(CLI::Validator(
@@ -151,6 +164,7 @@ void add_render(CLI::App& program, Run& run) {
       "  shlight render statue.glb --method transfer --light builtin:studio -o statue.png   (of shlight bake)\n"
       "  shlight render builtin:knot --material ggx:alpha=0.3,f0=0.9/0.6/0.2 --light builtin:studio -o gold.png\n"
       "  shlight render builtin:scene --method reference --transfer shadowed --samples 64 --size 320x180 -o truth.exr\n"
+      "  shlight render builtin:knot --bands 3 --size 320x240 --compare -o three_bands.png\n"
       "\nMATERIAL is one of\n" +
       describe_brdf_models());
   command->callback([arguments, command, &run] {

@@ -15,6 +15,9 @@
 #include "shlight/render/context.h"
 #include "shlight/scene/load_scene.h"
 #include "shlight/transfer/baked_file.h"
+#include "shlight/truth/comparison.h"
+#include "shlight/truth/heat_map.h"
+#include "shlight/truth/image_error.h"
 #include "shlight/truth/path_tracer.h"
 
 namespace shlight::app {
@@ -109,17 +112,23 @@ double relative_noise(const PathTraceResult& result) {
   return square > 0 ? std::sqrt(variance / square) : 0;
 }
 
+// The same picture, path traced.
+PathTraceParams make_trace_params(const RenderParams& render) {
+  PathTraceParams params;
+  params.width = render.width, params.height = render.height;
+  params.camera = render.camera;
+  params.rotate_light = render.rotate_light;
+  params.show_background = render.show_background;
+  return params;
+}
+
 void run_reference(const RenderArguments& arguments, const Scene& scene, const Light& light,
                    const RenderParams& render) {
   const std::filesystem::path output = output_of(arguments);
   for (const auto& path : {output, arguments.deviation})
     if (!path.empty()) check_writable(path);  // before minutes of work
 
-  PathTraceParams params;
-  params.width = render.width, params.height = render.height;
-  params.camera = render.camera;
-  params.rotate_light = render.rotate_light;
-  params.show_background = render.show_background;
+  PathTraceParams params = make_trace_params(render);
   params.transfer = arguments.bake.kind, params.bounces = arguments.bake.bounces;
   if (arguments.bake.samples > 0) params.samples = arguments.bake.samples;
   const auto brdf = make_material(arguments);
@@ -152,6 +161,40 @@ void run_reference(const RenderArguments& arguments, const Scene& scene, const L
                 {"samples", result.samples},
                 {"rays", result.rays},
                 {"noise", noise}});
+}
+
+// What was drawn beside what it approximates and where the two differ, and their errors in JSON.
+Image8 compare_with_reference(const RenderArguments& arguments, const Baked& drawn, const Light& light,
+                              const RenderParams& render, const RenderResult& result, nlohmann::ordered_json& json) {
+  PathTraceParams params = make_trace_params(render);
+  params.samples = arguments.compare_samples;
+  params.transfer = TransferKind::kCosine;
+  if (arguments.method == "transfer") {
+    params.transfer = drawn.transfer.kind;
+    params.bounces = is_baked_file(arguments.model) ? drawn.info.params.bounces : arguments.bake.bounces;
+  }
+  const auto brdf = make_material(arguments);
+  params.brdf = brdf.get();
+  params.gloss = (arguments.method == "reflectance" || arguments.method == "hybrid") && !brdf;
+  const PathTraceResult truth = trace_paths(drawn.scene, light, params, progress_bar("tracing"));
+  ImageErrorParams error_params;
+  error_params.meaning = Meaning::kRadiance;
+  const ImageError error = measure_error(result.radiance, truth.radiance, error_params);
+  const double noise = relative_noise(truth);
+  json = {{"rmse", error.rmse},           {"relative", error.relative}, {"ssim", error.ssim}, {"flip", error.flip},
+          {"max_error", error.max_error}, {"samples", truth.samples},   {"noise", noise}};
+
+  const double exposure = auto_exposure(light.project(1)) * std::exp2(render.exposure);
+  const float largest = *std::ranges::max_element(error.flip_map.values);
+  const std::string method = arguments.method + (arguments.material.empty() ? "" : " " + arguments.material);
+  return make_comparison(
+      {{result.picture, {method, fmt::format("{} bands", render.bands)}},
+       {make_picture8(truth.radiance, exposure),
+        {fmt::format("path traced: {}", to_text(params.transfer)),
+         fmt::format("{} paths a pixel, noise {:.2g} %", truth.samples, 100 * noise)}},
+       {make_heat_map(error.flip_map, largest > 0 ? double{largest} : 1.0),
+        {fmt::format("FLIP {:.4f}", error.flip),
+         fmt::format("RMSE {:.3g} = {:.3g} %, SSIM {:.4f}", error.rmse, 100 * error.relative, error.ssim)}}});
 }
 
 }  // namespace
@@ -187,10 +230,18 @@ void run_render(const RenderArguments& arguments) {
                                   ? draw_reflectance(arguments, scene, light, params, drawn.json)
                                   : render_irradiance(scene, light, params, progress_bar("drawing"));
 
-  if (output.extension() == ".exr")
+  nlohmann::ordered_json comparison;
+  if (arguments.compare) {
+    const Image8 picture = compare_with_reference(arguments, drawn.baked, *loaded.light, params, result, comparison);
+    if (!output.empty()) save_image8(output, picture);
+    spdlog::info("off by {:.3g} % (RMSE), FLIP {:.4f}, from a reference with {:.2g} % noise",
+                 100 * comparison["relative"].get<double>(), comparison["flip"].get<double>(),
+                 100 * comparison["noise"].get<double>());
+  } else if (output.extension() == ".exr") {
     save_image(output, result.radiance);
-  else if (!output.empty())
+  } else if (!output.empty()) {
     save_image8(output, result.picture);
+  }
   if (!output.empty())
     spdlog::info("{}: {} x {}, {} triangles, {:.1f} ms a frame on {}", output.string(), params.width, params.height,
                  num_triangles(scene), result.frame_ms, result.gl_renderer);
@@ -203,6 +254,7 @@ void run_render(const RenderArguments& arguments) {
                                    {"method", arguments.method},
                                    {"bands", params.bands}};
     json.update(drawn.json);
+    if (arguments.compare) json["compare"] = comparison;
     print_json(json);
   }
 }

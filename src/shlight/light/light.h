@@ -100,6 +100,7 @@ class CoefficientLight : public Light {
   Rgb radiance(Vec3d direction) const override;
   RgbCoefficients project(int bands, int threads) const override;
   std::optional<SunSplit> split_sun(int threads) const override;
+  const std::optional<Sun>& sun() const { return sun_; }
 
  private:
   RgbCoefficients coefficients_;

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <string_view>
 
-#include "shlight/image/tone_map.h"
+#include "shlight/truth/picture_text.h"
 
 namespace shlight {
 namespace {
@@ -28,56 +26,11 @@ bool can_be_shown(Rgb c) {
   return std::min({c.r, c.g, c.b}) >= 0 && std::max({c.r, c.g, c.b}) <= 1;
 }
 
-// What numbers are written with: 3 x 5 pixels, a row a number whose bits are the pixels from the left.
-struct Glyph {
-  char character;
-  std::array<unsigned char, 5> rows;
-};
-constexpr int kGlyphWidth = 3, kGlyphHeight = 5, kGlyphScale = 2;
-constexpr std::array<Glyph, 14> kGlyphs = {{{'0', {7, 5, 5, 5, 7}},
-                                            {'1', {2, 6, 2, 2, 7}},
-                                            {'2', {7, 1, 7, 4, 7}},
-                                            {'3', {7, 1, 3, 1, 7}},
-                                            {'4', {5, 5, 7, 1, 1}},
-                                            {'5', {7, 4, 7, 1, 7}},
-                                            {'6', {7, 4, 7, 5, 7}},
-                                            {'7', {7, 1, 2, 2, 2}},
-                                            {'8', {7, 5, 7, 5, 7}},
-                                            {'9', {7, 5, 7, 1, 7}},
-                                            {'.', {0, 0, 0, 0, 2}},
-                                            {'-', {0, 0, 7, 0, 0}},
-                                            {'+', {0, 2, 7, 2, 0}},
-                                            {'e', {0, 7, 7, 4, 7}}}};
-
-void set_pixel(Image8& image, int x, int y, Rgb linear) {
-  const std::size_t i =
-      4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
-  const std::array<double, 3> channels = {linear.r, linear.g, linear.b};
-  for (std::size_t c = 0; c < 3; ++c)
-    image.values[i + c] = static_cast<unsigned char>(std::lround(255 * encode_srgb(channels[c])));
-  image.values[i + 3] = 255;
-}
-
-void write_number(Image8& image, int left, int top, std::string_view text) {
-  constexpr Rgb kInk = {1, 1, 1};
-  for (const char character : text) {
-    const auto* glyph = std::ranges::find(kGlyphs, character, &Glyph::character);
-    if (glyph == kGlyphs.end()) continue;
-    for (int y = 0; y < kGlyphHeight * kGlyphScale; ++y)
-      for (int x = 0; x < kGlyphWidth * kGlyphScale; ++x) {
-        const int row = glyph->rows[static_cast<std::size_t>(y / kGlyphScale)];
-        if (row >> (kGlyphWidth - 1 - x / kGlyphScale) & 1 && left + x < image.width && top + y < image.height)
-          set_pixel(image, left + x, top + y, kInk);
-      }
-    left += (kGlyphWidth + 1) * kGlyphScale;
-  }
-}
-
 // A bar from the largest value at the top to 0 at the bottom, numbers beside it.
 void draw_scale(Image8& image, int left, double largest) {
   constexpr int kMargin = 8, kBarWidth = 8, kTick = 3;
   constexpr double kPage = 0.02;  // a dark grey
-  const int top = kGlyphHeight, bottom = image.height - 1 - kGlyphHeight;
+  const int top = kTextHeight / 2, bottom = image.height - 1 - kTextHeight / 2;
   for (int y = 0; y < image.height; ++y)
     for (int x = left; x < image.width; ++x) {
       const bool is_bar = x >= left + kMargin && x < left + kMargin + kBarWidth && y >= top && y <= bottom;
@@ -88,7 +41,7 @@ void draw_scale(Image8& image, int left, double largest) {
   for (int i = 0; i <= kSteps; ++i) {
     const int y = bottom - (bottom - top) * i / kSteps, x = left + kMargin + kBarWidth;
     for (int j = 0; j < kTick; ++j) set_pixel(image, x + j, y, {1, 1, 1});
-    write_number(image, x + 2 * kTick, y - kGlyphHeight, fmt::format("{:.2g}", largest * i / kSteps));
+    draw_text(image, x + 2 * kTick, y - kTextHeight / 2, fmt::format("{:.2g}", largest * i / kSteps));
   }
 }
 
