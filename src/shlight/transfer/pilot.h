@@ -11,9 +11,8 @@
 namespace shlight {
 
 // A few sites, spread over the scene, of which shadowed transfer is traced once more with other samples: the difference
-// of two independent results is √2 times the error of each, whatever the error comes from. One site in 16, but at least
-// 512, or all there are, since the error of a small scene may lie in few of its sites, where things touch; and not more
-// than a thousand, which give the error to about a fifteenth.
+// of two independent results is √2 times the error of each, whatever the error comes from. One site in 16, and not more
+// than a thousand in all, which give the error to about a fifteenth.
 //
 // They come in small groups of neighbours, since rays of neighbours are cheaper.
 struct SiteRange {
