@@ -27,14 +27,8 @@ LIGHTS = {
 MATERIALS = {
     "Lambert": "lambert",
     "Oren-Nayar σ .6": "oren-nayar:sigma=0.6",
-    "dielectric, roughness .5": "metallic-roughness:metallic=0,roughness=0.5",
-    "Ward σ .4": "ward:sigma=0.4",
     "Ward σ .2": "ward:sigma=0.2",
-    "Ward .1 × .4": "ward-aniso:sx=0.1,sy=0.4",
-    "Blinn-Phong 50": "blinn-phong:n=50",
     "Cook-Torrance m .5": "cook-torrance:m=0.5,f0=0.9",
-    "Cook-Torrance m .2": "cook-torrance:m=0.2,f0=0.9",
-    "GGX α .3": "ggx:alpha=0.3,f0=0.9",
 }
 MOST_BANDS = 20
 # Name of a table, what its cells are about, and the tolerance.

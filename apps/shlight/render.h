@@ -25,8 +25,8 @@ struct RenderArguments {
   RenderParams params;
   std::filesystem::path output;
   std::filesystem::path deviation;  // of reference
-  bool compare = false;       // beside the reference and the error
-  int compare_samples = 256;  // paths a pixel of that reference
+  bool compare = false;             // beside the reference and the error
+  int compare_samples = 256;        // paths a pixel of that reference
   bool no_background = false;
   bool json = false;
 };

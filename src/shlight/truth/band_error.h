@@ -71,7 +71,7 @@ struct BandErrors {
 // Of a light and a reflection model. Lambertian models are looked at along their normals, at 4096 of them. Others are
 // seen from 48 sides of each of 192 normals: as those of a sphere are by eyes all around it, sin²θ evenly from 0 to 1,
 // their tangents along the circles of latitude about +Y. Nothing for a light that gives no radiance in any direction.
-// About 0.5 s for Lambertian models, 2 to 15 s for others, on one core.
+// Of a map of 1024 x 512 pixels, one core takes about 0.6 s for Lambertian models and 1 to 2 s for others.
 std::optional<BandErrors> measure_band_errors(const Light& light, const Brdf& brdf, const BandErrorParams& params = {});
 
 // What a tolerance can be about: a member of BandError, its name, as `p99_local`, and what it means in words.
