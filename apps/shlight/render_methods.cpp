@@ -39,7 +39,7 @@ std::unique_ptr<Brdf> make_material(const RenderArguments& arguments) {
 // What a baked file holds, or what is baked now, and what there is to say of it in JSON.
 struct TransferToDraw {
   Baked baked;
-  nlohmann::ordered_json json;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
 };
 
 // The file as it was baked; refuses options that ask for another bake.
