@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tool_test_util.h"
 
@@ -92,10 +93,26 @@ TEST_F(ToolBands, FailsWhereNoNumberOfBandsIsEnough) {
   EXPECT_EQ(run_json({"bands", "--light", "builtin:sky", "--bands", "2"})["enough"], nullptr);
 }
 
-// The radius of the sphere in pictures of 48 x 48 pixels: 0.47 of their side.
 class ToolBandsDrawing : public ToolDrawingTest {
  protected:
-  static constexpr double outline_ = 22.5;
+  struct Hit {
+    Vec3d normal;  // in the camera's frame
+    double seen;   // its cosine to the view
+    double area;   // of the sphere in the pixel, relative to that of others
+  };
+
+  // The unit sphere in the middle of a pixel of pictures of 48 x 48, where its radius is 0.47 of their side.
+  static Hit hit_sphere(int x, int y) {
+    const double half = std::tan(35.0 / 2 * std::numbers::pi / 180), outline = 2 * 0.47 * half;
+    const double distance = std::sqrt(1 + 1 / (outline * outline));
+    const Vec3d ray = {(x - 23.5) / 24 * half, (23.5 - y) / 24 * half, -1};
+    const double length2 = dot(ray, ray), inside = distance * distance - length2 * (distance * distance - 1);
+    if (inside <= 0) return {{0, 0, 1}, 0, 0};
+    const double t = (distance - std::sqrt(inside)) / length2, length = std::sqrt(length2);
+    const Vec3d n = Vec3d{0, 0, distance} + t * ray;
+    const double seen = -dot(n, ray) / length;
+    return {n, seen, t * t / (length * seen)};
+  }
 };
 
 // A drawn sphere, seen from six sides, is as far from the path-traced one as `bands` says.
@@ -110,21 +127,20 @@ TEST_F(ToolBandsDrawing, PredictsTheErrorOfASphere) {
                                              "--material", material,         "--camera",       camera,
                                              "--size",     "48x48",          "--no-background"};
       run(with(both, {"--method", "reflectance", "--bands", "3", "-o", path("drawn.exr")}));
-      run(with(both, {"--method", "reference", "--transfer", "cosine", "--samples", "2048", "--deviation",
+      run(with(both, {"--method", "reference", "--transfer", "cosine", "--samples", "512", "--deviation",
                       path("noise.exr"), "-o", path("true.exr")}));
       const Image drawn = load_image(path("drawn.exr")).image, truth = load_image(path("true.exr")).image;
       const Image noise = load_image(path("noise.exr")).image;
       for (int y = 0; y < 48; ++y)
         for (int x = 0; x < 48; ++x) {
           const Rgb a = drawn.rgb(x, y), b = truth.rgb(x, y), sigma = noise.rgb(x, y);
-          // The normal; pixels of the outline are partly empty, and their share differs between the two.
-          const double nx = (x - 23.5) / outline_, ny = (y - 23.5) / outline_, flat = nx * nx + ny * ny;
-          if (b.g <= 0 || flat > 0.9) continue;
+          const auto [n, seen, weight_of_area] = hit_sphere(x, y);
+          // Pixels of the outline are partly empty, and their share differs between the two.
+          if (b.g <= 0 || seen < 0.3) continue;
           // `bands` weights all normals alike. What depends on the normal alone is taken from the view that faces it
           // most; what depends on the view too, from every view, as often as pixels see it.
-          const double nz = std::sqrt(1 - flat);
-          if (is_lambertian && (nz < std::abs(nx) || nz < std::abs(ny))) continue;
-          const double weight = is_lambertian ? 1 / nz : 1;
+          if (is_lambertian && (n.z < std::abs(n.x) || n.z < std::abs(n.y))) continue;
+          const double weight = is_lambertian ? weight_of_area : 1;
           const double channels[][4] = {{a.r, b.r, sigma.r, json["largest"][0]},
                                         {a.g, b.g, sigma.g, json["largest"][1]},
                                         {a.b, b.b, sigma.b, json["largest"][2]}};
