@@ -131,7 +131,9 @@ gl::Program ReflectanceRenderer::make_program(const Kind& kind, const RgbCoeffic
 ReflectanceRenderer::ReflectanceRenderer(std::span<const SurfaceReflectance> surfaces, const RgbCoefficients& radiance,
                                          Shade shade, const ResidualLight* residual, double unit) {
   for (const SurfaceReflectance& surface : surfaces) {
-    const bool hybrid = residual && surface.highlight;
+    // Tables made beside a highlight leave out what it reflects.
+    if (!residual) SHLIGHT_ASSERT_EQ(surface.highlight.has_value(), false);
+    const bool hybrid = surface.highlight.has_value();
     const Kind kind = {channels_of(surface), !surface.plain || surface.plain->isotropic(), hybrid};
     if (surface.plain) SHLIGHT_ASSERT_EQ(surface.plain->bands, radiance.bands());
     if (!programs_.contains(kind)) programs_.emplace(kind, make_program(kind, radiance, shade));

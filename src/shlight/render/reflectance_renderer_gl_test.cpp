@@ -242,7 +242,8 @@ TEST_F(ReflectanceRendererTest, HybridHighlightsAreThoseOfTheWholeLight) {
     const auto surfaces = make_surface_reflectances(sphere_, *brdf, table_params(5), true);
     const RenderLight lit = {light->project(5, 0), picture};
     const Rgb hybrid = render_hybrid(sphere_, surfaces, lit, params).radiance.rgb(kSize / 2, kSize / 2);
-    const Rgb alone = draw(sphere_, surfaces, lit.coefficients, params).rgb(kSize / 2, kSize / 2);
+    const auto plain = make_surface_reflectances(sphere_, *brdf, table_params(5));
+    const Rgb alone = draw(sphere_, plain, lit.coefficients, params).rgb(kSize / 2, kSize / 2);
     const Rgb expected = reflected_to_front(*brdf, picture);
     // Sixteen slim lobes for a wide one.
     const double tolerance = brdf->traits().symmetry == BrdfSymmetry::kIsotropic ? 0.03 : 0.08;
@@ -251,6 +252,20 @@ TEST_F(ReflectanceRendererTest, HybridHighlightsAreThoseOfTheWholeLight) {
     gained = std::max(gained, std::abs(alone.r - expected.r) / expected.r);
   }
   EXPECT_GT(gained, 0.2) << "a test that the reflectance method passes too is no test of this one";
+}
+
+TEST_F(ReflectanceRendererTest, HybridLosesNothingOfALightOfFewBands) {
+  // All of it is in the first bands: part of it comes by them, part by the residual of their reconstruction.
+  const auto brdf = make_brdf("ggx:alpha=0.1,f0=0.9/0.6/0.3");
+  const RgbCoefficients light = test_light(5);
+  const RenderParams params = parallel_params(5);
+  const Image reflectance = draw(sphere_, make_surface_reflectances(sphere_, *brdf, table_params(5)), light, params);
+  const Image hybrid =
+      render_hybrid(sphere_, make_surface_reflectances(sphere_, *brdf, table_params(5), true), {light, {}}, params)
+          .radiance;
+  const int middle = kSize / 2;
+  EXPECT_LT(largest_of(hybrid.rgb(middle, middle) - reflectance.rgb(middle, middle)),
+            0.03 * largest_of(reflectance.rgb(middle, middle)));
 }
 
 TEST_F(ReflectanceRendererTest, HybridMirrorShowsTheLight) {

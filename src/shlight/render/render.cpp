@@ -124,8 +124,11 @@ RenderResult render_reflectance(const Scene& scene, std::span<const SurfaceRefle
 RenderResult render_hybrid(const Scene& scene, std::span<const SurfaceReflectance> surfaces, const RenderLight& light,
                            const RenderParams& params, const Progress& progress) {
   SHLIGHT_ASSERT_EQ(surfaces.size(), scene.materials.size());
-  if (light.background.num_pixels() == 0) return render_reflectance(scene, surfaces, light, params, progress);
-  const ResidualLight residual(light.background, taken_by_highlights(resize_bands(light.coefficients, params.bands)));
+  // A light that is coefficients is what they reconstruct.
+  constexpr int kWidth = 256;
+  const Image picture =
+      light.background.num_pixels() > 0 ? light.background : CoefficientLight(light.coefficients).lat_long(kWidth, 0);
+  const ResidualLight residual(picture, taken_by_highlights(resize_bands(light.coefficients, params.bands)));
   return render(scene, light, params, progress, [&](const RgbCoefficients& radiance, double unit) {
     return ReflectanceRenderer(surfaces, radiance, params.shade, &residual, unit);
   });

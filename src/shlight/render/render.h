@@ -55,12 +55,12 @@ RenderResult render_irradiance(const Scene& scene, const RenderLight& light, con
                                const Progress& progress = {});
 
 // The same by the reflectance method: `surfaces` are those of the scene's materials, with tables of as many bands as
-// are used of the light.
+// are used of the light and without highlights.
 RenderResult render_reflectance(const Scene& scene, std::span<const SurfaceReflectance> surfaces,
                                 const RenderLight& light, const RenderParams& params, const Progress& progress = {});
 
-// The same by the hybrid method: `surfaces` have highlights, which also reflect what light.background has beyond the
-// coefficients. Without a background, the reflectance method.
+// The same by the hybrid method: `surfaces` were made with highlights, which reflect all of light.background, or of the
+// coefficients where there is none.
 RenderResult render_hybrid(const Scene& scene, std::span<const SurfaceReflectance> surfaces, const RenderLight& light,
                            const RenderParams& params, const Progress& progress = {});
 

@@ -178,10 +178,4 @@ int prefiltered_size(double width) {
   return size;
 }
 
-int num_prefilter_samples(double width) {
-  constexpr int kLookups = 6'000'000;  // about half a second on two cores, but of near mirrors four times that
-  const int size = prefiltered_size(width);
-  return std::clamp(kLookups / (6 * size * size), 64, 2048);
-}
-
 }  // namespace shlight

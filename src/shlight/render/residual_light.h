@@ -36,9 +36,7 @@ class ResidualLight {
 using CubeFaces = std::array<Image, 6>;
 CubeFaces prefilter_cube(const ResidualLight& light, const LobeFromAbove& lobe, int size);
 
-// A size whose pixels are slim enough for a lobe of this width (BrdfLobe::width_x), a power of two; and how many
-// samples of the lobe are enough for no noise to be seen: wide lobes have few pixels, and are given more.
+// A size whose pixels are slim enough for a lobe of this width (BrdfLobe::width_x), a power of two.
 int prefiltered_size(double width);
-int num_prefilter_samples(double width);
 
 }  // namespace shlight

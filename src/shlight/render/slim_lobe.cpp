@@ -40,6 +40,45 @@ double spread(int i, int dimension) {
   return x - std::floor(x);
 }
 
+struct ReflectedSample {
+  Vec3d s;
+  double weight, pdf;  // f_r cos θ / pdf
+};
+
+// Where light comes from that is seen from above.
+std::vector<ReflectedSample> reflect_from_above(const Brdf& brdf, int count) {
+  const Vec3d v = {0, 0, 1};
+  std::vector<ReflectedSample> samples;
+  for (int i = 0; i < count; ++i) {
+    // Strata of the choice between lobes, in the sequence of the samples.
+    const Vec3d s = sample_brdf(brdf, v, (i + 0.5) / count, spread(i, 0), spread(i, 1));
+    if (!(s.z > 0)) continue;
+    const double pdf = sample_brdf_pdf(brdf, s, v), weight = luminance(brdf.eval(s, v)) * s.z / pdf;
+    if (weight > 0) samples.push_back({s, weight, pdf});
+  }
+  return samples;
+}
+
+// The middle of each of kLobeTaps equal parts of the lobe, from one end of its wide side to the other.
+std::vector<float> spread_wide_slopes(const Brdf& brdf, bool along_x) {
+  constexpr int kCount = 8192;                    // where the outer taps lie shows in the streaks' ends
+  std::vector<std::pair<double, double>> slopes;  // and their weights
+  double sum = 0;
+  for (const ReflectedSample& sample : reflect_from_above(brdf, kCount)) {
+    slopes.push_back({(along_x ? sample.s.x : sample.s.y) / (1 + sample.s.z), sample.weight});
+    sum += sample.weight;
+  }
+  std::ranges::sort(slopes);
+  std::vector<float> taps;
+  double below = 0;
+  for (const auto& [slope, weight] : slopes) {
+    below += weight / sum;
+    while (static_cast<int>(taps.size()) < kLobeTaps && below > (static_cast<double>(taps.size()) + 0.5) / kLobeTaps)
+      taps.push_back(static_cast<float>(slope));
+  }
+  return taps;
+}
+
 }  // namespace
 
 std::unique_ptr<Brdf> make_slim_lobes(const Brdf& brdf) {
@@ -68,37 +107,19 @@ LobeFromAbove sample_lobe_from_above(const Brdf& brdf, int count) {
     lobe.profile.push_back(static_cast<float>(luminance(brdf.eval(s, v)) * cosine));
   }
 
-  std::vector<std::pair<double, double>> wide_slopes;  // and their weights
+  // The slim lobe: half vectors whose wide slope is shrunk to the slim one's width, and their direction to the light.
+  const double shrink = lobe.width / std::max(along, across);
   double sum = 0;
-  for (int i = 0; i < count; ++i) {
-    // Strata of the choice between lobes, in the sequence of the samples.
-    const Vec3d s = sample_brdf(brdf, v, (i + 0.5) / count, spread(i, 0), spread(i, 1));
-    if (!(s.z > 0)) continue;
-    const double pdf = sample_brdf_pdf(brdf, s, v), weight = luminance(brdf.eval(s, v)) * s.z / pdf;
-    if (!(weight > 0)) continue;
-    sum += weight;
-    // Half vectors whose wide slope is shrunk to the slim one's width, and their direction to the light.
-    double x = s.x / (1 + s.z), y = s.y / (1 + s.z);
-    double& wide = lobe.wide_along_x ? x : y;
-    wide_slopes.push_back({wide, weight});
-    wide *= lobe.width / std::max(along, across);
+  for (const ReflectedSample& sample : reflect_from_above(brdf, count)) {
+    double x = sample.s.x / (1 + sample.s.z), y = sample.s.y / (1 + sample.s.z);
+    (lobe.wide_along_x ? x : y) *= shrink;
     const double scale = 2 / (1 + x * x + y * y);
     // Seen from above, the mirrored direction is the normal.
-    lobe.samples.push_back(
-        {{scale * x, scale * y, scale - 1}, weight, lobe.width / std::max(along, across) / (count * pdf)});
+    lobe.samples.push_back({{scale * x, scale * y, scale - 1}, sample.weight, shrink / (count * sample.pdf)});
+    sum += sample.weight;
   }
   for (LobeSample& sample : lobe.samples) sample.weight /= sum;
-  if (along == across) return lobe;
-  // The middle of each of kLobeTaps equal parts of the lobe, from one end of its wide side to the other.
-  std::ranges::sort(wide_slopes);
-  lobe.slopes.clear();
-  double below = 0;
-  for (const auto& [slope, weight] : wide_slopes) {
-    below += weight / sum;
-    while (static_cast<int>(lobe.slopes.size()) < kLobeTaps &&
-           below > (static_cast<double>(lobe.slopes.size()) + 0.5) / kLobeTaps)
-      lobe.slopes.push_back(static_cast<float>(slope));
-  }
+  if (along != across) lobe.slopes = spread_wide_slopes(brdf, lobe.wide_along_x);
   return lobe;
 }
 

@@ -32,7 +32,7 @@ struct LobeFromAbove {
 };
 inline constexpr int kLobeTaps = 16;
 
-// Deterministic.
+// Deterministic; `count` samples.
 LobeFromAbove sample_lobe_from_above(const Brdf& brdf, int count);
 
 }  // namespace shlight

@@ -4,11 +4,13 @@
 
 #include "shlight/brdf/metallic_roughness.h"
 #include "shlight/core/assert.h"
-#include "shlight/render/residual_light.h"
 #include "shlight/sh/window.h"
 
 namespace shlight {
 namespace {
+
+// Of near mirrors, whose cube maps are large, a second's work on two cores.
+constexpr int kLobeSamples = 64;
 
 // Makes the highlight of a model and windows its slim lobes in the table, which has all lobes.
 std::optional<SurfaceHighlight> make_highlight(const Brdf& brdf, ReflectanceTableParams params,
@@ -24,9 +26,7 @@ std::optional<SurfaceHighlight> make_highlight(const Brdf& brdf, ReflectanceTabl
   for (std::size_t i = 0; i < table.values.size(); ++i) table.values[i] -= taken[i % taken.size()] * lobes.values[i];
 
   params.bands = 1;
-  const LobeFromAbove few = sample_lobe_from_above(*slim, 16);
-  return SurfaceHighlight{
-      make_reflectance_table(*slim, params), {}, sample_lobe_from_above(*slim, num_prefilter_samples(few.width))};
+  return SurfaceHighlight{make_reflectance_table(*slim, params), {}, sample_lobe_from_above(*slim, kLobeSamples)};
 }
 
 // What is linear in the base colour, by black and white: plain, and what is to be tinted.
