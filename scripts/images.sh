@@ -146,5 +146,26 @@ scripts/transfer_images.sh
 # What approximates beside what it approximates; how many bands lights and materials need.
 "$shlight" render builtin:knot --light builtin:studio --bands 3 --camera 20,10,1.2 --size 360x300 --compare \
   -o "$images/compare.png"
+font=$(fc-match --format '%{file}' sans)
+pictures=()
+for light in studio sky; do
+  gold=(builtin:knot --light "builtin:$light" --material ggx:alpha=0.15,f0=0.95/0.7/0.35 --camera 20,10,1.2
+    --size 360x360)
+  "$shlight" render "${gold[@]}" --method reference --transfer cosine --samples 1024 -o "$work/reference.png"
+  for how in 3 5 hybrid; do
+    options=(--bands "$how") what="$how bands"
+    if [[ $how == hybrid ]]; then options=(--method hybrid) what=hybrid; fi
+    "$shlight" render "${gold[@]}" "${options[@]}" -o "$work/approach.png"
+    "$shlight" compare "$work/approach.png" "$work/reference.png" --json >"$work/approach.json"
+    flip=$(python3 -c 'import json, sys; print("{flip:.3f}".format(**json.load(open(sys.argv[1]))))' \
+      "$work/approach.json")
+    pictures+=("$work/approach_${#pictures[@]}.png")
+    oiiotool "$work/approach.png" --text:x=12:y=346:size=17:color=1,1,1:font="$font" "${what}: FLIP $flip" \
+      -o "${pictures[-1]}"
+  done
+  pictures+=("$work/approach_${#pictures[@]}.png")
+  oiiotool "$work/reference.png" --text:x=12:y=346:size=17:color=1,1,1:font="$font" "path traced" -o "${pictures[-1]}"
+done
+oiiotool "${pictures[@]}" --mosaic:pad=8 4x2 -o "$images/approaches.png"
 scripts/bands.py "$shlight" "$PWD"
 ls -l "$images" "$images/layouts" "$images/bands"

@@ -44,6 +44,21 @@ void add_picture_options(CLI::App& command, LoadLightParams& params) {
       ->check(CLI::PositiveNumber.description(""));
 }
 
+void add_size_option(CLI::App& command, int& width, int& height) {
+  command
+      .add_option_function<std::string>(
+          "--size",
+          [&width, &height](const std::string& text) {
+            int end = 0;
+            if (std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &end) != 2 ||
+                end != static_cast<int>(text.size()) || width < 1 || height < 1)
+              throw CLI::ValidationError("--size", "'" + text + "' is no size such as 1280x720");
+          },
+          "Of the picture in pixels")
+      ->type_name("WxH")
+      ->default_str(fmt::format("{}x{}", width, height));
+}
+
 CLI::Validator number_from(double low, double high) {
   const auto check = [low, high](std::string& text) {
     double value = 0;

@@ -29,6 +29,7 @@ void add_demo(CLI::App& program, Run& run);
 void add_convert_map(CLI::App& program, Run& run);
 void add_compare(CLI::App& program, Run& run);
 void add_bands(CLI::App& program, Run& run);
+void add_bench(CLI::App& program, Run& run);
 
 // The help of a LIGHT argument, and of a MODEL.
 extern const char* const kLightHelp;
@@ -74,6 +75,9 @@ std::string describe_storage(const BakeInfo& info);
 
 // Bakes with a bar, and says on stderr what it took.
 Transfer bake_aloud(const std::string& model, const Scene& scene, const BakeParams& params);
+
+// --size WxH of a picture in pixels.
+void add_size_option(CLI::App& command, int& width, int& height);
 
 // Numbers in [low, high]; unlike CLI::Range, it does not take NaN for one.
 CLI::Validator number_from(double low, double high);

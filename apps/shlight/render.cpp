@@ -12,15 +12,6 @@
 namespace shlight::app {
 namespace {
 
-// "WxH"
-std::string parse_size(const std::string& text, RenderParams& params) {
-  int end = 0;
-  if (std::sscanf(text.c_str(), "%5dx%5d%n", &params.width, &params.height, &end) != 2 ||
-      end != static_cast<int>(text.size()) || params.width < 1 || params.height < 1)
-    return "'" + text + "' is no size such as 1280x720";
-  return "";
-}
-
 // "AZIMUTH,ELEVATION" or "AZIMUTH,ELEVATION,ZOOM"
 std::string parse_camera(const std::string& text, Camera& camera) {
   int end = 0;
@@ -114,16 +105,7 @@ void add_render(CLI::App& program, Run& run) {
           "Around the model: azimuth 0 looks along -Z, 90 along -X")
       ->type_name("AZIMUTH,ELEVATION[,ZOOM]")
       ->default_str(fmt::format("{},{},{}", params.camera.azimuth, params.camera.elevation, params.camera.zoom));
-  command
-      ->add_option_function<std::string>(
-          "--size",
-          [&params](const std::string& text) {
-            if (const std::string wrong = parse_size(text, params); !wrong.empty())
-              throw CLI::ValidationError("--size", wrong);
-          },
-          "Of the picture in pixels")
-      ->type_name("WxH")
-      ->default_str(fmt::format("{}x{}", params.width, params.height));
+  add_size_option(*command, params.width, params.height);
   command->add_option("--rotate-light", arguments->rotate_light, "Turn the light about the vertical, degrees")
       ->capture_default_str()
       ->check(number_from(-36000, 36000));

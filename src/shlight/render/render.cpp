@@ -72,8 +72,11 @@ RenderResult render(const Scene& scene, const RenderLight& light, const RenderPa
     camera.azimuth += turn;
     const View view = make_view(camera, extent, static_cast<double>(params.width) / params.height);
     radiance_target.begin();
-    renderer.draw(gpu_scene, view, params.rotate_light);
-    if (params.show_background) background.draw(view, params.rotate_light);
+    const Rotation light_turn = params.turn_light
+                                    ? rotation_about_y(-turn * std::numbers::pi / 180) * params.rotate_light
+                                    : params.rotate_light;
+    renderer.draw(gpu_scene, view, light_turn);
+    if (params.show_background) background.draw(view, light_turn);
     radiance_target.resolve();
     picture_target.begin();
     tone_mapper.draw(radiance_target.texture(), exposed);

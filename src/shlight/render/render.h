@@ -24,9 +24,10 @@ struct RenderParams {
   int height = 720;
   int bands = 3;  // used of the light, which may have more, and of transfer; 1 to kMaxRenderBands
   Camera camera;
-  Rotation rotate_light;  // of the light, before it falls on the scene
-  double exposure = 0;    // stops, on top of auto_exposure() of the light
-  int frames = 1;         // at least 1: how many are timed; the view turns once around in them
+  Rotation rotate_light;    // of the light, before it falls on the scene
+  double exposure = 0;      // stops, on top of auto_exposure() of the light
+  int frames = 1;           // at least 1: how many are timed; the view turns once around in them
+  bool turn_light = false;  // once around as well, the other way
   bool show_background = true;
   bool mark_negative = false;   // magenta stripes where a channel of what a surface leaves is below zero
   Shade shade = Shade::kPixel;  // by the reflectance method
