@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "command.h"
-#include "shlight/sh/window.h"
+#include "shlight/light/window_name.h"
 
 namespace shlight::app {
 namespace {
@@ -38,28 +38,6 @@ std::optional<Rotation> parse_rotation(const std::string& text) {
     if (is_rotation(rotation, 1e-4)) return rotation;
   }
   return {};
-}
-
-// "hann:6": a window and the first degree that it takes away; "laplacian:0.01": and its λ.
-struct NamedWindow {
-  Window window;
-  double strength;
-};
-std::optional<NamedWindow> parse_window(const std::string& text) {
-  const std::size_t colon = std::min(text.find(':'), text.size());
-  const std::string name = text.substr(0, colon);
-  double value = 0;
-  if (colon == text.size() || !CLI::detail::lexical_cast(text.substr(colon + 1), value) || !(value > 0) ||
-      !std::isfinite(value))
-    return {};
-  if (name == "hann") return NamedWindow{Window::kHann, 1 / value};
-  if (name == "lanczos") return NamedWindow{Window::kLanczos, 1 / value};
-  if (name == "laplacian") return NamedWindow{Window::kLaplacian, value};
-  return {};
-}
-
-bool is_automatic(const std::string& window) {
-  return window == "auto" || window == "auto-radiance";
 }
 
 // Azimuth and elevation in degrees, as the built-in sky takes them.
@@ -114,28 +92,26 @@ void add_window_option(CLI::App& command, LightShape& shape) {
           "Smooth the coefficients against ringing: auto does just enough for irradiance to be nowhere negative, "
           "auto-radiance for radiance")
       ->capture_default_str()
-      ->type_name("none|auto|auto-radiance|hann:W|lanczos:W|laplacian:LAMBDA")
+      ->type_name(kWindowNames)
       ->check(CLI::Validator(
           [](std::string& text) {
-            const bool good = text == "none" || is_automatic(text) || parse_window(text);
-            return good ? ""
-                        : "'" + text +
-                              "' is no window: none, auto, auto-radiance, hann:6 and lanczos:6 (the first degree "
-                              "taken away), or laplacian:0.01";
+            return is_window_name(text)
+                       ? ""
+                       : "'" + text +
+                             "' is no window: none, auto, auto-radiance, hann:6 and lanczos:6 (the first degree "
+                             "taken away), or laplacian:0.01";
           },
           ""));
 }
 
 RgbCoefficients apply_window(const LightShape& shape, const RgbCoefficients& coefficients) {
-  if (shape.window == "none") return coefficients;
-  if (const auto named = parse_window(shape.window)) return apply_window(named->window, named->strength, coefficients);
-  const bool radiance = shape.window == "auto-radiance";
-  const AutoWindow result =
-      make_auto_window(Window::kLaplacian, radiance ? Positive::kRadiance : Positive::kIrradiance, coefficients);
-  spdlog::info("window {}: {}, {} certified to be at least {:.3g} everywhere, {:.1f} % of the contrast kept",
-               shape.window, result.strength == 0 ? "nothing to do" : fmt::format("laplacian:{:.4g}", result.strength),
-               radiance ? "radiance" : "irradiance", result.lower_bound, 100 * result.contrast_kept);
-  return result.coefficients;
+  const auto [windowed, automatic] = apply_named_window(shape.window, coefficients);
+  if (!automatic) return windowed;
+  spdlog::info(
+      "window {}: {}, {} certified to be at least {:.3g} everywhere, {:.1f} % of the contrast kept", shape.window,
+      automatic->strength == 0 ? "nothing to do" : fmt::format("laplacian:{:.4g}", automatic->strength),
+      shape.window == "auto" ? "irradiance" : "radiance", automatic->lower_bound, 100 * automatic->contrast_kept);
+  return windowed;
 }
 
 }  // namespace shlight::app

@@ -22,6 +22,31 @@ std::string parse_camera(const std::string& text, Camera& camera) {
   return good ? "" : "'" + text + "' is no camera: azimuth, elevation (-90 to 90) in degrees, zoom (0.01 to 100)";
 }
 
+// "X,Y,Z"
+std::string parse_target(const std::string& text, Vec3d& target) {
+  int end = 0;
+  const int count = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &target.x, &target.y, &target.z, &end);
+  const auto good = [](double value) { return std::abs(value) <= 100; };
+  if (count == 3 && end == static_cast<int>(text.size()) && good(target.x) && good(target.y) && good(target.z))
+    return "";
+  return "'" + text + "' is no point: three numbers from -100 to 100";
+}
+
+// "normals", "visibility", "degree:L"
+std::string parse_show(const std::string& text, RenderParams& params) {
+  int end = 0;
+  if (text == "normals")
+    params.show = Show::kNormals;
+  else if (text == "visibility")
+    params.show = Show::kVisibility;
+  else if (std::sscanf(text.c_str(), "degree:%d%n", &params.degree, &end) == 1 &&
+           end == static_cast<int>(text.size()) && params.degree >= 0 && params.degree < kMaxRenderBands)
+    params.show = Show::kDegree;
+  else
+    return fmt::format("'{}' is none of normals, visibility, degree:0 to degree:{}", text, kMaxRenderBands - 1);
+  return "";
+}
+
 // Which options go together; fills in what depends on others.
 void check_render_options(const CLI::App& command, RenderArguments& arguments) {
   const auto given = [&](const char* option) { return command.count(option) > 0; };
@@ -31,7 +56,7 @@ void check_render_options(const CLI::App& command, RenderArguments& arguments) {
   for (const char* option : {"--transfer", "--samples", "--bounces"})
     if (given(option) && method != "transfer" && !is_reference)
       throw CLI::ValidationError(option, "only with --method transfer or reference");
-  for (const char* option : {"--bands", "--window", "--mark-negative", "--frames"})
+  for (const char* option : {"--bands", "--window", "--mark-negative", "--frames", "--show"})
     if (given(option) && is_reference) throw CLI::ValidationError(option, "not with --method reference");
   for (const char* option : {"--deviation", "--gloss"})
     if (given(option) && !is_reference) throw CLI::ValidationError(option, "only with --method reference");
@@ -48,6 +73,10 @@ void check_render_options(const CLI::App& command, RenderArguments& arguments) {
     throw CLI::ValidationError("--compare-samples", "only with --compare");
   if (given("--bounces") && is_reference && arguments.bake.kind != TransferKind::kInterreflected)
     throw CLI::ValidationError("--bounces", "only with --transfer interreflected");
+  const RenderParams& params = arguments.params;
+  if (params.show == Show::kVisibility && method != "transfer")
+    throw CLI::ValidationError("--show", "visibility only with --method transfer, which knows it");
+  if (given("--show") && given("--compare")) throw CLI::ValidationError("--show", "not with --compare");
   if (!is_reference) check_bake_options(command, arguments.bake);
   arguments.kind_given = given("--transfer");
   arguments.samples_given = given("--samples");
@@ -55,6 +84,9 @@ void check_render_options(const CLI::App& command, RenderArguments& arguments) {
   arguments.bands_given = given("--bands");
   // What is not diffuse needs more.
   if (is_reflectance && !arguments.bands_given) arguments.params.bands = 5;
+  if (params.show == Show::kDegree && params.degree >= params.bands)
+    throw CLI::ValidationError("--show",
+                               fmt::format("{} bands have the degrees 0 to {}", params.bands, params.bands - 1));
 }
 
 }  // namespace
@@ -105,6 +137,16 @@ void add_render(CLI::App& program, Run& run) {
           "Around the model: azimuth 0 looks along -Z, 90 along -X")
       ->type_name("AZIMUTH,ELEVATION[,ZOOM]")
       ->default_str(fmt::format("{},{},{}", params.camera.azimuth, params.camera.elevation, params.camera.zoom));
+  command
+      ->add_option_function<std::string>(
+          "--look-at",
+          [&params](const std::string& text) {
+            if (const std::string wrong = parse_target(text, params.camera.target); !wrong.empty())
+              throw CLI::ValidationError("--look-at", wrong);
+          },
+          "The point that the camera turns around, from the middle of the model, in radii of it")
+      ->type_name("X,Y,Z")
+      ->default_str("0,0,0");
   add_size_option(*command, params.width, params.height);
   command->add_option("--rotate-light", arguments->rotate_light, "Turn the light about the vertical, degrees")
       ->capture_default_str()
@@ -112,6 +154,23 @@ void add_render(CLI::App& program, Run& run) {
   command->add_option("--exposure", params.exposure, "Stops brighter than automatic")
       ->capture_default_str()
       ->check(number_from(-60, 60));
+  command
+      ->add_option("--tone-map", params.curve, "From radiance to a picture: a film's soft curve, or cut off at white")
+      ->transform(CLI::CheckedTransformer(
+                      std::map<std::string, ToneCurve>{{"filmic", ToneCurve::kFilmic}, {"none", ToneCurve::kNone}})
+                      .description(""))
+      ->type_name("filmic|none")
+      ->default_str("filmic");
+  command
+      ->add_option_function<std::string>(
+          "--show",
+          [&params](const std::string& text) {
+            if (const std::string wrong = parse_show(text, params); !wrong.empty())
+              throw CLI::ValidationError("--show", wrong);
+          },
+          "Something else than the lit model: its normals, how open its vertices are to light (of --method transfer), "
+          "or one degree of the light alone")
+      ->type_name("normals|visibility|degree:L");
   command->add_option("--frames", params.frames, "Draw so many frames with the view turning, for the time of one")
       ->capture_default_str()
       ->check(CLI::Range(1, 1'000'000).description("1 to 1000000"));

@@ -139,7 +139,8 @@ void run_reference(const RenderArguments& arguments, const Scene& scene, const L
   if (output.extension() == ".exr")
     save_image(output, result.radiance);
   else if (!output.empty())
-    save_image8(output, make_picture8(result.radiance, auto_exposure(light.project(1)) * std::exp2(render.exposure)));
+    save_image8(output, make_picture8(result.radiance, auto_exposure(light.project(1)) * std::exp2(render.exposure),
+                                      render.curve));
   if (!arguments.deviation.empty()) {
     Image deviation = result.variance;
     for (float& v : deviation.values) v = std::sqrt(v);
@@ -189,7 +190,7 @@ Image8 compare_with_reference(const RenderArguments& arguments, const Baked& dra
   const std::string method = arguments.method + (arguments.material.empty() ? "" : " " + arguments.material);
   return make_comparison(
       {{result.picture, {method, fmt::format("{} bands", render.bands)}},
-       {make_picture8(truth.radiance, exposure),
+       {make_picture8(truth.radiance, exposure, render.curve),
         {fmt::format("path traced: {}", to_text(params.transfer)),
          fmt::format("{} paths a pixel, noise {:.2g} %", truth.samples, 100 * noise)}},
        {make_heat_map(error.flip_map, largest > 0 ? double{largest} : 1.0),

@@ -48,12 +48,18 @@ Rgb tone_map(Rgb radiance) {
   return {out[0], out[1], out[2]};
 }
 
-Image8 make_picture8(const Image& radiance, double exposure) {
+Rgb tone_map(Rgb radiance, ToneCurve tone_curve) {
+  if (tone_curve == ToneCurve::kFilmic) return tone_map(radiance);
+  const auto cut = [](double value) { return std::min(limited(value), 1.0); };
+  return {cut(radiance.r), cut(radiance.g), cut(radiance.b)};
+}
+
+Image8 make_picture8(const Image& radiance, double exposure, ToneCurve tone_curve) {
   Image8 picture{radiance.width, radiance.height, {}};
   picture.values.reserve(4 * radiance.num_pixels());
   for (int y = 0; y < radiance.height; ++y)
     for (int x = 0; x < radiance.width; ++x) {
-      const Rgb shown = tone_map(exposure * radiance.rgb(x, y));
+      const Rgb shown = tone_map(exposure * radiance.rgb(x, y), tone_curve);
       picture.values.insert(picture.values.end(), {to_byte(shown.r), to_byte(shown.g), to_byte(shown.b), 255});
     }
   return picture;

@@ -10,6 +10,10 @@ namespace shlight {
 IrradianceRenderer::IrradianceRenderer(const RgbCoefficients& radiance)
     : program_(shaders::mesh_vert, shaders::surface_frag,
                std::string(shaders::irradiance_frag) + make_irradiance_glsl(radiance.bands())) {
+  set_radiance(radiance);
+}
+
+void IrradianceRenderer::set_radiance(const RgbCoefficients& radiance) {
   program_.use();
   set_irradiance_uniforms(program_, radiance);
 }

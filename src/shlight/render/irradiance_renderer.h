@@ -17,6 +17,9 @@ class IrradianceRenderer {
   // `radiance` has 1 to 10 bands. Compiles a shader for their number.
   explicit IrradianceRenderer(const RgbCoefficients& radiance);
 
+  // From now on, the light of the coefficients; of as many bands.
+  void set_radiance(const RgbCoefficients& radiance);
+
   // From now on, paints stripes of this radiance where a channel of the irradiance is negative; black: no more.
   void mark_negative(Vec3f radiance);
 

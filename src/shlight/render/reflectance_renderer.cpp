@@ -77,9 +77,8 @@ gl::Texture upload_table(const SurfaceReflectance& surface) {
 }
 
 // Half floats, which every OpenGL ES 3.0 interpolates.
-gl::Texture upload_residual(const ResidualLight& residual, const SurfaceHighlight& highlight, double unit) {
-  const int size = prefiltered_size(highlight.lobe.width);
-  const CubeFaces faces = prefilter_cube(residual, highlight.lobe, size);
+gl::Texture upload_cube(const CubeFaces& faces, double unit) {
+  const int size = faces[0].width;
   gl::Texture texture = gl::make_texture();
   glBindTexture(GL_TEXTURE_CUBE_MAP, texture.id());
   glTexStorage2D(GL_TEXTURE_CUBE_MAP, 1, GL_RGBA16F, size, size);
@@ -127,19 +126,28 @@ gl::Program ReflectanceRenderer::make_program(const Kind& kind, const RgbCoeffic
 }
 
 ReflectanceRenderer::ReflectanceRenderer(std::span<const SurfaceReflectance> surfaces, const RgbCoefficients& radiance,
-                                         Shade shade, const ResidualLight* residual, double unit) {
-  for (const SurfaceReflectance& surface : surfaces) {
+                                         Shade shade, std::span<const CubeFaces> cubes, double unit) {
+  if (!cubes.empty()) SHLIGHT_ASSERT_EQ(cubes.size(), surfaces.size());
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const SurfaceReflectance& surface = surfaces[i];
     // Tables made beside a highlight leave out what it reflects.
-    if (!residual) SHLIGHT_ASSERT_EQ(surface.highlight.has_value(), false);
+    if (cubes.empty()) SHLIGHT_ASSERT_EQ(surface.highlight.has_value(), false);
     const bool hybrid = surface.highlight.has_value();
     const Kind kind = {channels_of(surface), !surface.plain || surface.plain->isotropic(), hybrid};
     if (surface.plain) SHLIGHT_ASSERT_EQ(surface.plain->bands, radiance.bands());
     if (!programs_.contains(kind)) programs_.emplace(kind, make_program(kind, radiance, shade));
     surfaces_.push_back({&programs_.at(kind), surface.plain ? upload_table(surface) : gl::Texture(),
-                         hybrid ? upload_residual(*residual, *surface.highlight, unit) : gl::Texture(),
+                         hybrid ? upload_cube(cubes[i], unit) : gl::Texture(),
                          hybrid ? surface.highlight->lobe.slopes : std::vector<float>(),
                          hybrid && surface.highlight->lobe.wide_along_x});
     needs_tangents_ = needs_tangents_ || !kind.isotropic;
+  }
+}
+
+void ReflectanceRenderer::set_radiance(const RgbCoefficients& radiance) {
+  for (const auto& [kind, program] : programs_) {
+    program.use();
+    kind.channels == 0 ? set_irradiance_uniforms(program, radiance) : set_radiance_uniforms(program, radiance);
   }
 }
 

@@ -36,11 +36,14 @@ enum class Shade { kPixel, kVertex };
 class ReflectanceRenderer {
  public:
   // `surfaces` are those of the scene's materials, with tables of radiance.bands(), 1 to 10. Materials whose tables are
-  // alike in kind share a shader, which is compiled here. With `residual`, what the light has beyond what
-  // taken_by_highlights leaves of `radiance`, times `unit`, the hybrid method: `surfaces` have highlights, which
-  // reflect that too; without it, they have none. Throws Error where memory runs out.
+  // alike in kind share a shader, which is compiled here. With `cubes`, those of make_highlight_cubes, times
+  // `unit`, the hybrid method: `surfaces` have highlights, which reflect them too; without it, they have none. Throws
+  // Error where memory runs out.
   ReflectanceRenderer(std::span<const SurfaceReflectance> surfaces, const RgbCoefficients& radiance, Shade shade,
-                      const ResidualLight* residual = nullptr, double unit = 1);
+                      std::span<const CubeFaces> cubes = {}, double unit = 1);
+
+  // From now on, the light of the coefficients; of as many bands.
+  void set_radiance(const RgbCoefficients& radiance);
 
   // From now on, paints stripes of this radiance where a channel of the radiance is negative; black: no more.
   void mark_negative(Vec3f radiance);

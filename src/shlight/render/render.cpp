@@ -4,27 +4,17 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "shlight/core/assert.h"
-#include "shlight/image/tone_map.h"
-#include "shlight/render/background.h"
 #include "shlight/render/context.h"
-#include "shlight/render/gpu_scene.h"
-#include "shlight/render/irradiance_renderer.h"
-#include "shlight/render/targets.h"
-#include "shlight/render/tone_map.h"
-#include "shlight/render/transfer_renderer.h"
+#include "shlight/render/frame_renderer.h"
+#include "shlight/render/highlight_cubes.h"
 
 namespace shlight {
 namespace {
-
-RgbCoefficients scaled(double factor, RgbCoefficients coefficients) {
-  for (Rgb& c : coefficients.values()) c = factor * c;
-  return coefficients;
-}
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -32,12 +22,11 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-template <class Renderer>
-bool needs_tangents(const Renderer&) {
-  return false;
-}
-bool needs_tangents(const ReflectanceRenderer& renderer) {
-  return renderer.needs_tangents();
+// What of the light is drawn, in the light's unit.
+RgbCoefficients drawn_light(const RenderLight& light, const LightScale& scale, const RenderParams& params) {
+  if (params.show == Show::kVisibility) return visibility_light(params.bands);
+  const RgbCoefficients coefficients = scaled(scale.unit, resize_bands(light.coefficients, params.bands));
+  return params.show == Show::kDegree ? keep_degree(coefficients, params.degree) : coefficients;
 }
 
 // Draws with the renderer that make_renderer makes in the context from the light's coefficients, which are measured in
@@ -47,54 +36,48 @@ RenderResult render(const Scene& scene, const RenderLight& light, const RenderPa
                     const MakeRenderer& make_renderer) {
   SHLIGHT_ASSERT_LE(1, params.frames);
   const HeadlessContext context;
-  const RadianceTarget radiance_target(params.width, params.height);
-  const PictureTarget picture_target(params.width, params.height);
+  const FrameRenderer frame_renderer(params.width, params.height);
 
-  // Half floats hold 6e-5 to 65504 at full precision, so lights are drawn in a unit near their mean, whatever they are
-  // measured in. A power of two: what it takes off a value, it gives back exactly.
-  const double exposure = auto_exposure(light.coefficients);
-  const double unit = std::exp2(std::round(std::log2(exposure)));
-  const RgbCoefficients coefficients = scaled(unit, resize_bands(light.coefficients, params.bands));
-  const Background background =
-      light.background.num_pixels() > 0 ? Background(light.background, unit) : Background(coefficients);
-  auto renderer = make_renderer(coefficients, unit);
-  const double exposed = exposure / unit * std::exp2(params.exposure);
-  if (params.mark_negative) {
-    const float bright = static_cast<float>(1 / exposed);
-    renderer.mark_negative({bright, 0, bright});
+  const bool has_light = params.show == Show::kLit || params.show == Show::kDegree;
+  const LightScale scale = has_light ? light_scale(light.coefficients) : LightScale{};
+  const RgbCoefficients coefficients = drawn_light(light, scale, params);
+  std::optional<Background> background;
+  if (params.show_background && has_light) {
+    if (light.background.num_pixels() > 0 && params.show == Show::kLit)
+      background.emplace(light.background, scale.unit);
+    else
+      background.emplace(coefficients);
   }
-  const GpuScene gpu_scene(scene, needs_tangents(renderer));
-  const ToneMapper tone_mapper;
-
-  const Extent extent = scene_extent(scene);
+  SurfaceRenderer renderer = params.show == Show::kNormals ? SurfaceRenderer(NormalRenderer())
+                                                           : SurfaceRenderer(make_renderer(coefficients, scale.unit));
+  FrameParams frame = {params.camera, params.rotate_light, params.exposure, params.curve};
+  if (!has_light) frame.exposure = 0, frame.curve = ToneCurve::kNone;
+  if (params.mark_negative) {
+    const float bright = static_cast<float>(1 / exposed(scale, frame));
+    mark_negative(renderer, {bright, 0, bright});
+  }
+  const GpuScene gpu_scene(params.show == Show::kVisibility ? without_colors(scene) : scene, needs_tangents(renderer));
+  const Drawing drawing = {gpu_scene, scene_extent(scene), renderer, background ? &*background : nullptr, scale};
   const auto draw = [&](double turn) {
-    Camera camera = params.camera;
-    camera.azimuth += turn;
-    const View view = make_view(camera, extent, static_cast<double>(params.width) / params.height);
-    radiance_target.begin();
-    const Rotation light_turn = params.turn_light
-                                    ? rotation_about_y(-turn * std::numbers::pi / 180) * params.rotate_light
-                                    : params.rotate_light;
-    renderer.draw(gpu_scene, view, light_turn);
-    if (params.show_background) background.draw(view, light_turn);
-    radiance_target.resolve();
-    picture_target.begin();
-    tone_mapper.draw(radiance_target.texture(), exposed);
+    frame.camera = params.camera;
+    frame.camera.azimuth += turn;
+    if (params.turn_light) frame.rotate_light = rotation_about_y(-turn * std::numbers::pi / 180) * params.rotate_light;
+    frame_renderer.draw(drawing, frame);
     glFinish();
   };
 
   draw(0);
   gl::check_errors("the picture");
   RenderResult result;
-  result.radiance = radiance_target.read(1 / unit);
-  result.picture = picture_target.read();
+  result.radiance = frame_renderer.read_radiance();
+  result.picture = frame_renderer.read_picture();
   result.gl_renderer = gl_renderer();
 
   std::vector<double> frame_ms;
-  for (int frame = 0; frame < params.frames; ++frame) {
-    report_progress(progress, static_cast<double>(frame) / params.frames);
+  for (int i = 0; i < params.frames; ++i) {
+    report_progress(progress, static_cast<double>(i) / params.frames);
     const auto start = std::chrono::steady_clock::now();
-    draw(360.0 * frame / params.frames);
+    draw(360.0 * i / params.frames);
     frame_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   }
   report_progress(progress, 1);
@@ -103,12 +86,6 @@ RenderResult render(const Scene& scene, const RenderLight& light, const RenderPa
 }
 
 }  // namespace
-
-RenderLight make_render_light(const Light& light, int bands, int background_width) {
-  RenderLight result{light.project(bands), {}};
-  if (!dynamic_cast<const CoefficientLight*>(&light)) result.background = light.lat_long(background_width);
-  return result;
-}
 
 RenderResult render_irradiance(const Scene& scene, const RenderLight& light, const RenderParams& params,
                                const Progress& progress) {
@@ -127,13 +104,9 @@ RenderResult render_reflectance(const Scene& scene, std::span<const SurfaceRefle
 RenderResult render_hybrid(const Scene& scene, std::span<const SurfaceReflectance> surfaces, const RenderLight& light,
                            const RenderParams& params, const Progress& progress) {
   SHLIGHT_ASSERT_EQ(surfaces.size(), scene.materials.size());
-  // A light that is coefficients is what they reconstruct.
-  constexpr int kWidth = 256;
-  const Image picture =
-      light.background.num_pixels() > 0 ? light.background : CoefficientLight(light.coefficients).lat_long(kWidth, 0);
-  const ResidualLight residual(picture, taken_by_highlights(resize_bands(light.coefficients, params.bands)));
+  const std::vector<CubeFaces> cubes = make_highlight_cubes(surfaces, light, params.bands);
   return render(scene, light, params, progress, [&](const RgbCoefficients& radiance, double unit) {
-    return ReflectanceRenderer(surfaces, radiance, params.shade, &residual, unit);
+    return ReflectanceRenderer(surfaces, radiance, params.shade, cubes, unit);
   });
 }
 

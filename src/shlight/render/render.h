@@ -5,8 +5,9 @@
 
 #include "shlight/core/progress.h"
 #include "shlight/image/image.h"
-#include "shlight/light/light.h"
+#include "shlight/image/tone_map.h"
 #include "shlight/render/reflectance_renderer.h"
+#include "shlight/render/render_light.h"
 #include "shlight/render/surface_reflectance.h"
 #include "shlight/scene/camera.h"
 #include "shlight/scene/scene.h"
@@ -17,7 +18,14 @@
 
 namespace shlight {
 
-inline constexpr int kMaxRenderBands = 10;
+// What is drawn: the scene in the light, in one degree of it alone, or something else that is worth seeing. Normals and
+// visibility take neither exposure nor curve nor a background.
+enum class Show {
+  kLit,
+  kDegree,
+  kNormals,    // NormalRenderer
+  kVisibility  // by the transfer method: how open each vertex is, visibility_light
+};
 
 struct RenderParams {
   int width = 1280;
@@ -28,19 +36,13 @@ struct RenderParams {
   double exposure = 0;      // stops, on top of auto_exposure() of the light
   int frames = 1;           // at least 1: how many are timed; the view turns once around in them
   bool turn_light = false;  // once around as well, the other way
+  ToneCurve curve = ToneCurve::kFilmic;
+  Show show = Show::kLit;
+  int degree = 0;  // of kDegree, below `bands`
   bool show_background = true;
   bool mark_negative = false;   // magenta stripes where a channel of what a surface leaves is below zero
   Shade shade = Shade::kPixel;  // by the reflectance method
 };
-
-// A distant light as the renderer needs it.
-struct RenderLight {
-  RgbCoefficients coefficients;  // of radiance
-  Image background;              // lat-long radiance, drawn at infinity; empty: reconstructed from the coefficients
-};
-
-// The coefficients and the picture of `light`. Lights that are coefficients themselves need no picture.
-RenderLight make_render_light(const Light& light, int bands, int background_width = 2048);
 
 struct RenderResult {
   Image radiance;       // linear, as lit, without exposure; 16-bit floats' precision

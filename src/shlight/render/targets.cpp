@@ -45,6 +45,19 @@ gl::Texture make_target_texture(unsigned format, int width, int height) {
   return texture;
 }
 
+// Of a framebuffer's eight-bit colours, rows from the top.
+Image8 read_picture(unsigned framebuffer, int width, int height) {
+  const std::size_t row_bytes = 4 * static_cast<std::size_t>(width);
+  std::vector<unsigned char> bottom_up(row_bytes * static_cast<std::size_t>(height));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, bottom_up.data());
+  Image8 image = {width, height, std::vector<unsigned char>(bottom_up.size())};
+  for (int y = 0; y < height; ++y)
+    std::copy_n(bottom_up.begin() + static_cast<std::ptrdiff_t>((height - 1 - y) * row_bytes), row_bytes,
+                image.values.begin() + static_cast<std::ptrdiff_t>(y * row_bytes));
+  return image;
+}
+
 }  // namespace
 
 RadianceTarget::RadianceTarget(int width, int height) : width_(width), height_(height) {
@@ -111,15 +124,29 @@ void PictureTarget::begin() const {
 }
 
 Image8 PictureTarget::read() const {
-  const std::size_t row_bytes = 4 * static_cast<std::size_t>(width_);
-  std::vector<unsigned char> bottom_up(row_bytes * height_);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
-  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, bottom_up.data());
-  Image8 image = {width_, height_, std::vector<unsigned char>(bottom_up.size())};
-  for (int y = 0; y < height_; ++y)
-    std::copy_n(bottom_up.begin() + static_cast<std::ptrdiff_t>((height_ - 1 - y) * row_bytes), row_bytes,
-                image.values.begin() + static_cast<std::ptrdiff_t>(y * row_bytes));
-  return image;
+  return read_picture(framebuffer_.id(), width_, height_);
+}
+
+void WindowTarget::begin(int width, int height, double grey) {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, width, height);
+  const auto value = static_cast<float>(grey);
+  glClearColor(value, value, value, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+}
+
+Image8 WindowTarget::read(int width, int height) {
+  Image8 picture = read_picture(0, width, height);
+  for (std::size_t i = 3; i < picture.values.size(); i += 4) picture.values[i] = 255;
+  return picture;
+}
+
+PictureTexture::PictureTexture(const Image8& picture)
+    : width_(picture.width), height_(picture.height), texture_(make_target_texture(GL_RGBA8, width_, height_)) {
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, picture.values.data());
+  gl::check_errors("a picture's texture");
 }
 
 }  // namespace shlight

@@ -40,11 +40,36 @@ class PictureTarget {
   void begin() const;
   // Rows from the top, alpha 255.
   Image8 read() const;
+  // RGBA8, rows from the bottom.
+  unsigned texture() const { return texture_.id(); }
 
  private:
   int width_, height_;
   gl::Texture texture_;
   gl::Framebuffer framebuffer_;
+};
+
+// The window that the current context draws into.
+class WindowTarget {
+ public:
+  // Binds it, sets the viewport, clears it to a grey of this sRGB value.
+  static void begin(int width, int height, double grey);
+  // What was drawn, before it is shown: rows from the top, alpha 255.
+  static Image8 read(int width, int height);
+};
+
+// A picture that pixels are uploaded into, for those who draw with textures.
+class PictureTexture {
+ public:
+  explicit PictureTexture(const Image8& picture);
+  // RGBA8, rows from the top.
+  unsigned texture() const { return texture_.id(); }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  int width_, height_;
+  gl::Texture texture_;
 };
 
 }  // namespace shlight

@@ -209,6 +209,10 @@ TransferRenderer::TransferRenderer(const ClusteredPca& pca, const RgbCoefficient
   program_.set("u_layers", num_code_layers(pca));
 }
 
+void TransferRenderer::set_radiance(const RgbCoefficients& radiance) {
+  radiance_ = resize_bands(radiance, radiance_.bands());
+}
+
 void TransferRenderer::mark_negative(Vec3f radiance) {
   program_.use();
   program_.set("u_negative", radiance);

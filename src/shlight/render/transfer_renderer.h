@@ -33,6 +33,9 @@ class TransferRenderer {
   TransferRenderer(const Transfer& transfer, const RgbCoefficients& radiance, int bits = 32);
   TransferRenderer(const ClusteredPca& pca, const RgbCoefficients& radiance);
 
+  // From now on, the light of the coefficients, of which as many bands are used as before.
+  void set_radiance(const RgbCoefficients& radiance);
+
   // From now on, paints stripes of this radiance where a channel of Σ L_i A_i is negative; black: no more.
   void mark_negative(Vec3f radiance);
 

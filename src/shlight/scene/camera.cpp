@@ -39,6 +39,35 @@ double distance_to_cylinder(double r, double h, double elevation, double tan_x, 
   return std::max({sideways, top, bottom});
 }
 
+double half_tangent(const Camera& camera) {
+  return std::tan(0.5 * radians(camera.vertical_fov));
+}
+
+double clamped_elevation(const Camera& camera) {
+  return radians(std::clamp(camera.elevation, -90.0, 90.0));
+}
+
+// Of the eye from what it looks at, in radii of the ball.
+double distance_to_target(const Camera& camera, const Extent& extent, double aspect) {
+  const double tan_y = half_tangent(camera), tan_x = tan_y * aspect;
+  const double framed =
+      std::min(distance_to_ball(1, kFill * tan_x, kFill * tan_y),
+               distance_to_cylinder(extent.cylinder_radius / extent.radius, extent.half_height / extent.radius,
+                                    clamped_elevation(camera), kFill * tan_x, kFill * tan_y));
+  return framed / camera.zoom;
+}
+
+// The camera's axes in the world: one turned by the azimuth about +Y, then raised; it looks down −toward.
+struct CameraAxes {
+  Vec3d right, up, toward;
+};
+CameraAxes camera_axes(const Camera& camera) {
+  const double azimuth = radians(camera.azimuth), elevation = clamped_elevation(camera);
+  const double sin_a = std::sin(azimuth), cos_a = std::cos(azimuth);
+  const double sin_e = std::sin(elevation), cos_e = std::cos(elevation);
+  return {{cos_a, 0, -sin_a}, {-sin_e * sin_a, cos_e, -sin_e * cos_a}, {cos_e * sin_a, sin_e, cos_e * cos_a}};
+}
+
 }  // namespace
 
 Extent scene_extent(const Scene& scene) {
@@ -65,23 +94,9 @@ Extent scene_extent(const Scene& scene) {
 }
 
 View make_view(const Camera& camera, const Extent& extent, double aspect) {
-  const double azimuth = radians(camera.azimuth);
-  const double elevation = radians(std::clamp(camera.elevation, -90.0, 90.0));
-  const double tan_y = std::tan(0.5 * radians(camera.vertical_fov)), tan_x = tan_y * aspect;
-
-  // Everything from here on is in radii of the ball.
-  const double framed =
-      std::min(distance_to_ball(1, kFill * tan_x, kFill * tan_y),
-               distance_to_cylinder(extent.cylinder_radius / extent.radius, extent.half_height / extent.radius,
-                                    elevation, kFill * tan_x, kFill * tan_y));
-  const double distance = framed / camera.zoom;
-
-  // The camera's axes in the world: one turned by the azimuth about +Y, then raised; it looks down −toward.
-  const double sin_a = std::sin(azimuth), cos_a = std::cos(azimuth);
-  const double sin_e = std::sin(elevation), cos_e = std::cos(elevation);
-  const Vec3d right = {cos_a, 0, -sin_a};
-  const Vec3d up = {-sin_e * sin_a, cos_e, -sin_e * cos_a};
-  const Vec3d toward = {cos_e * sin_a, sin_e, cos_e * cos_a};
+  const double tan_y = half_tangent(camera), tan_x = tan_y * aspect;
+  const double distance = distance_to_target(camera, extent, aspect);
+  const auto [right, up, toward] = camera_axes(camera);
   View view = {};
   std::size_t row = 0;
   for (const Vec3d axis : {right, up, toward}) {
@@ -92,17 +107,26 @@ View make_view(const Camera& camera, const Extent& extent, double aspect) {
     view.world_to_view[12 + row] = -dot(scaled, extent.center);
     ++row;
   }
-  view.world_to_view[14] -= distance;
+  view.world_to_view[12] -= dot(right, camera.target);
+  view.world_to_view[13] -= dot(up, camera.target);
+  view.world_to_view[14] -= dot(toward, camera.target) + distance;
   view.world_to_view[15] = 1;
 
   // OpenGL's perspective: what lies at the depth near comes to −1, far to 1.
-  const double near = std::max(distance - 1.01, kMinNear), far = distance + 1.01;
+  const double depth = distance + dot(toward, camera.target);  // of the ball's centre
+  const double near = std::max(depth - 1.01, kMinNear), far = std::max(depth + 1.01, 2 * kMinNear);
   view.view_to_clip[0] = 1 / tan_x;
   view.view_to_clip[5] = 1 / tan_y;
   view.view_to_clip[10] = -(far + near) / (far - near);
   view.view_to_clip[11] = -1;
   view.view_to_clip[14] = -2 * far * near / (far - near);
   return view;
+}
+
+void pan_camera(Camera& camera, const Extent& extent, double aspect, double right, double up) {
+  const double height = 2 * half_tangent(camera) * distance_to_target(camera, extent, aspect);
+  const CameraAxes axes = camera_axes(camera);
+  camera.target = camera.target - height * (right * axes.right + up * axes.up);
 }
 
 }  // namespace shlight

@@ -7,13 +7,14 @@
 
 namespace shlight {
 
-// Turns around the point looked at. Azimuth 0 and elevation 0 look down -Z; azimuth turns the camera toward +X, so
-// that azimuth 90 looks down -X; elevation raises it.
+// Turns around the point looked at, `target`. Azimuth 0 and elevation 0 look down -Z; azimuth turns the camera toward
+// +X, so that azimuth 90 looks down -X; elevation raises it.
 struct Camera {
   double azimuth = 30;       // degrees
   double elevation = 15;     // degrees, in [-90, 90]
   double zoom = 1;           // above 0; 1 frames the whole model, 2 is twice as near
   double vertical_fov = 35;  // degrees, in (0, 180)
+  Vec3d target = {};         // from the centre of what is framed, in its radii, the world's axes
 };
 
 // What a camera frames. The scene is inside the ball around `center` and inside the upright cylinder around it, so that
@@ -40,7 +41,12 @@ struct View {
 };
 
 // Frames `extent` in a picture of `aspect` = width / height: at zoom 1 the ball or the cylinder, whichever takes more
-// of the picture, just fits with a small margin. Near and far planes hold the whole ball.
+// of the picture, just fits with a small margin. Near and far planes hold all of the ball that is
+// before the camera.
 View make_view(const Camera& camera, const Extent& extent, double aspect);
+
+// Moves the target so that what is at its depth moves to the right and up by these parts of the picture's height, as if
+// it were held by a pointer.
+void pan_camera(Camera& camera, const Extent& extent, double aspect, double right, double up);
 
 }  // namespace shlight

@@ -121,5 +121,31 @@ TEST(Camera, ExtentFollowsInstances) {
   EXPECT_NEAR(extent.half_height, 2, 1e-5);
 }
 
+TEST(Camera, TurnsAroundItsTarget) {
+  const Extent extent = {{3, -2, 5}, 4, 3, 2};
+  Camera camera;
+  camera.target = {0.5, -0.25, 0.125};
+  for (const double azimuth : {0.0, 70.0, 200.0})
+    for (const double elevation : {-40.0, 0.0, 65.0}) {
+      camera.azimuth = azimuth, camera.elevation = elevation;
+      const Vec3d middle = project(make_view(camera, extent, 1.5), extent.center + extent.radius * camera.target);
+      EXPECT_NEAR(middle.x, 0, 1e-12);
+      EXPECT_NEAR(middle.y, 0, 1e-12);
+    }
+}
+
+// A quarter of the picture's height is half of normalised device coordinates.
+TEST(Camera, PanningMovesWhatIsAtTheTargetWithThePointer) {
+  const Extent extent = {{3, -2, 5}, 4, 3, 2};
+  constexpr double kAspect = 1.6;
+  Camera camera;
+  camera.azimuth = 130, camera.elevation = 25, camera.zoom = 2;
+  const Vec3d held = extent.center;
+  pan_camera(camera, extent, kAspect, 0.25, -0.125);
+  const Vec3d moved = project(make_view(camera, extent, kAspect), held);
+  EXPECT_NEAR(moved.x, 0.5 / kAspect, 1e-9);
+  EXPECT_NEAR(moved.y, -0.25, 1e-9);
+}
+
 }  // namespace
 }  // namespace shlight

@@ -6,6 +6,7 @@ precision highp sampler2D;
 
 uniform sampler2D u_radiance;
 uniform float u_exposure;  // a factor
+uniform bool u_filmic;     // else cut off at 1
 
 out vec4 o_color;
 
@@ -35,5 +36,6 @@ vec3 encode_srgb(vec3 linear) {
 void main() {
   vec3 radiance = texelFetch(u_radiance, ivec2(gl_FragCoord.xy), 0).rgb;
   // The upper limit, far in the white, keeps infinity out of the curve.
-  o_color = vec4(encode_srgb(tone_map(clamp(radiance * u_exposure, 0.0, 1e6))), 1.0);
+  vec3 exposed = clamp(radiance * u_exposure, 0.0, 1e6);
+  o_color = vec4(encode_srgb(u_filmic ? tone_map(exposed) : min(exposed, 1.0)), 1.0);
 }

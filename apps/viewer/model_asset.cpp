@@ -1,0 +1,51 @@
+#include "model_asset.h"
+
+#include <fmt/format.h>
+
+#include "shlight/scene/load_scene.h"
+
+namespace shlight::viewer {
+
+Model load_model(const std::string& name, int serial) {
+  auto model = std::make_shared<ModelAsset>();
+  model->name = name;
+  model->key = fmt::format("{} {}", serial, name);
+  model->is_baked = !is_builtin_scene(name) && is_baked_file(name);
+  if (model->is_baked)
+    model->content = load_baked(name);
+  else
+    model->content.scene = make_scene(name);
+  const Scene& scene = model->content.scene;
+  model->extent = scene_extent(scene);
+  model->triangles = num_triangles(scene);
+  model->vertices = num_vertices(scene);
+  return model;
+}
+
+void load_lighting(const std::string& name, int serial, const Task<Lighting>::Publish& publish, const Progress& progress) {
+  constexpr int kQuickWidth = 512, kFullWidth = 2048;
+  const auto loaded = std::make_shared<const LoadedLight>(load_light(name));
+  report_progress(progress, 0.1);
+  const auto publish_at = [&](int width) {
+    auto light = std::make_shared<LightAsset>();
+    light->name = name;
+    light->key = fmt::format("{} {} {}", serial, name, width);
+    light->loaded = loaded;
+    light->drawn = make_render_light(*loaded->light, kMaxRenderBands, width, worker_threads());
+    light->final = width == kFullWidth;
+    publish(light);
+    report_progress(progress, 0.3);
+  };
+  // Pictures and coefficients need not be evaluated.
+  if (loaded->info.kind == LightInfo::Kind::kBuiltin || loaded->info.kind == LightInfo::Kind::kFormula)
+    publish_at(kQuickWidth);
+  publish_at(kFullWidth);
+}
+
+std::vector<std::string> remarks(const LightInfo& info) {
+  std::vector<std::string> lines = info.warnings;
+  if (!info.pixels.clean()) lines.push_back(describe(info.pixels, false));
+  return lines;
+}
+
+}  // namespace shlight::viewer

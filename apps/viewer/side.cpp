@@ -1,0 +1,347 @@
+#include "side.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shlight/brdf/make_brdf.h"
+#include "shlight/light/window_name.h"
+#include "shlight/truth/accumulate_paths.h"
+
+namespace shlight::viewer {
+namespace {
+
+bool needs_tables(const Look& look) {
+  return look.show != Show::kNormals && (look.method == Method::kReflectance || look.method == Method::kHybrid);
+}
+bool needs_transfer(const Look& look) {
+  return look.show == Show::kVisibility || (look.show != Show::kNormals && look.method == Method::kTransfer);
+}
+
+// What a bake depends on. A baked file has its transfer already.
+std::string bake_key(const Subject& subject, const Look& look) {
+  if (subject.model->is_baked) return subject.model->key + " baked";
+  const bool bounces = look.transfer == TransferKind::kInterreflected;
+  return fmt::format("{} {} {} {} {}", subject.model->key, to_text(look.transfer), look.bands,
+                     look.transfer == TransferKind::kCosine ? 0 : look.samples, bounces ? look.bounces : 0);
+}
+
+std::string table_key(const Subject& subject, const Look& look) {
+  std::string key = fmt::format("{} {} {}", look.material.empty() ? subject.model->key : "", look.material, look.bands);
+  // The cubes of the hybrid method are of the light.
+  if (look.method == Method::kHybrid) key += fmt::format(" hybrid {} {}", subject.light->key, look.window);
+  return key;
+}
+
+std::string trace_key(const Subject& subject, const Settings& s, const Look& look, int width, int height) {
+  std::string key = fmt::format("{} {} {} {} {} {} {} {} {} {} {}", subject.model->key, subject.light->key,
+                                look.material, to_text(look.transfer), look.bounces, s.background, s.camera.azimuth,
+                                s.camera.elevation, s.camera.zoom, width, height);
+  key += fmt::format(" {} {} {}", s.camera.target.x, s.camera.target.y, s.camera.target.z);
+  for (const Vec3d& row : s.rotate_light.rows) key += fmt::format(" {} {} {}", row.x, row.y, row.z);
+  return key;
+}
+
+// Passes of more and more paths; the first ones of few pixels, to have something soon.
+void trace(const ModelAsset& model, const LightAsset& light, PathTraceParams params,
+           const Task<PathTraceResult>::Publish& publish, const Progress& progress) {
+  const int width = params.width, height = params.height;
+  params.samples = kReplicates;
+  for (const int smaller : {8, 4}) {
+    params.width = std::max(width / smaller, 1), params.height = std::max(height / smaller, 1);
+    PathTraceResult quick = trace_paths(model.content.scene, *light.loaded->light, params, [&](double) { return progress(0); });
+    quick.samples = 0;  // pixels are larger than those that are asked for
+    publish(std::move(quick));
+  }
+  params.width = width, params.height = height;
+  constexpr int kEnough = 4096, kLargestPass = 256;
+  PathTraceResult sum;
+  while (sum.samples < kEnough) {
+    params.samples = std::clamp(sum.samples, kReplicates, kLargestPass);
+    accumulate_paths(trace_paths(model.content.scene, *light.loaded->light, params,
+                                 [&](double) { return progress(static_cast<double>(sum.samples) / kEnough); }),
+                     sum);
+    ++params.seed;
+    publish(sum);
+  }
+}
+
+// Root mean square of the pixels' deviations, relative to the picture's.
+double relative_noise(const PathTraceResult& result) {
+  double variance = 0, square = 0;
+  for (const float v : result.variance.values) variance += double{v};
+  for (const float v : result.radiance.values) square += double{v} * double{v};
+  return square > 0 ? std::sqrt(variance / square) : 0;
+}
+
+std::size_t bytes_of(const std::vector<SurfaceReflectance>& surfaces) {
+  std::size_t floats = 0;
+  for (const SurfaceReflectance& surface : surfaces) {
+    if (surface.plain) floats += surface.plain->values.size();
+    if (surface.tinted) floats += surface.tinted->values.size();
+  }
+  return floats * sizeof(float);
+}
+
+}  // namespace
+
+const GpuScene& GpuModel::get(bool tangents, bool colors) {
+  const std::pair key = {tangents, colors};
+  const auto found = scenes_.find(key);
+  if (found != scenes_.end()) return found->second;
+  const Scene& scene = model_->content.scene;
+  return scenes_.emplace(key, GpuScene(colors ? scene : without_colors(scene), tangents)).first->second;
+}
+
+void Side::request_tables(const Subject& subject, const Look& look) {
+  const std::string key = table_key(subject, look);
+  if (tables_ && tables_->key == key) return;
+  if (key == cancelled_) return;
+  const bool hybrid = look.method == Method::kHybrid;
+  RenderLight light;
+  if (hybrid) light = {shaped_light(subject, look, look.bands), subject.light->drawn.background};
+  table_.request(
+      key,
+      [key, model = subject.model, look, hybrid, light = std::move(light)](const auto& publish, const Progress& progress) {
+        ReflectanceTableParams params;
+        params.bands = look.bands;
+        params.threads = worker_threads();
+        const Scene& scene = model->content.scene;
+        auto tables = std::make_shared<Tables>();
+        tables->key = key;
+        if (look.material.empty())
+          tables->surfaces = make_surface_reflectances(scene, params, hybrid, progress);
+        else
+          tables->surfaces = make_surface_reflectances(scene, *make_brdf(look.material), params, hybrid);
+        if (hybrid) tables->cubes = make_highlight_cubes(tables->surfaces, light, look.bands, progress);
+        publish(tables);
+      },
+      false);
+}
+
+void Side::request_bake(const Subject& subject, const Look& look) {
+  const std::string key = bake_key(subject, look);
+  if (transfer_ && transfer_->key == key && transfer_->final) return;
+  if (key == cancelled_) return;
+  if (subject.model->is_baked) {
+    const auto transfer = std::shared_ptr<const Transfer>(subject.model, &subject.model->content.transfer);
+    transfer_ = std::make_shared<const BakedTransfer>(BakedTransfer{key, transfer, true});
+    return;
+  }
+  bake_.request(
+      key,
+      [key, model = subject.model, look](const auto& publish, const Progress& progress) {
+        BakeParams params;
+        params.kind = look.transfer;
+        params.bands = look.bands;
+        params.bounces = look.bounces;
+        params.threads = worker_threads();
+        // A quick one to look at first.
+        constexpr int kQuick = 32, kBetter = 256;
+        const bool is_exact = look.transfer == TransferKind::kCosine;
+        for (const int samples : {kQuick, kBetter, look.samples}) {
+          const bool last = samples == look.samples;
+          if (!last && (is_exact || (look.samples > 0 && samples >= look.samples))) continue;
+          params.samples = is_exact ? 0 : samples;
+          auto transfer = std::make_shared<const Transfer>(bake_transfer(model->content.scene, params, watch(progress)));
+          publish(std::make_shared<const BakedTransfer>(BakedTransfer{key, transfer, last}));
+          if (last) break;
+        }
+      },
+      true);
+}
+
+void Side::request_trace(const Subject& subject, const Settings& settings, const Look& look) {
+  PathTraceParams params;
+  params.width = width_, params.height = height_;
+  params.camera = settings.camera;
+  params.rotate_light = settings.rotate_light;
+  params.transfer = look.transfer;
+  params.bounces = look.bounces;
+  params.show_background = settings.background;
+  params.threads = worker_threads();
+  trace_.request(
+      trace_key(subject, settings, look, width_, height_),
+      [model = subject.model, light = subject.light, look, params](const auto& publish, const Progress& progress) {
+        PathTraceParams with_brdf = params;
+        const auto brdf = look.material.empty() ? nullptr : make_brdf(look.material);
+        with_brdf.brdf = brdf.get();
+        trace(*model, *light, with_brdf, publish, progress);
+      },
+      true);
+}
+
+bool Side::take_news() {
+  bool news = false;
+  if (auto tables = table_.poll()) {
+    if (tables->result) tables_ = *tables->result, news = true;
+    if (!tables->error.empty()) error_ = tables->error;
+  }
+  if (auto bake = bake_.poll()) {
+    if (bake->result) transfer_ = *bake->result, news = true;
+    if (!bake->error.empty()) error_ = bake->error;
+  }
+  if (auto trace = trace_.poll()) {
+    if (trace->result && trace->key == trace_.wanted()) {
+      traced_ = std::move(*trace->result);
+      traced_key_ = trace->key;
+      noise_ = relative_noise(traced_);
+      news = true;
+    }
+    if (!trace->error.empty()) error_ = trace->error;
+  }
+  return news;
+}
+
+RgbCoefficients Side::shaped_light(const Subject& subject, const Look& look, int bands) const {
+  const RgbCoefficients first = resize_bands(subject.light->drawn.coefficients, bands);
+  return look.window == "none" ? first : apply_named_window(look.window, first).coefficients;
+}
+
+// Makes a renderer of the look where what it needs is there; of irradiance where there is nothing yet.
+bool Side::build_renderer(const Subject& subject, const Look& look) {
+  const bool tables_ready = needs_tables(look) && tables_ && tables_->key == table_key(subject, look);
+  const bool transfer_ready = needs_transfer(look) && transfer_ && transfer_->key == bake_key(subject, look);
+  const bool needs_neither = !needs_tables(look) && !needs_transfer(look);
+  const bool fallback = !tables_ready && !transfer_ready && !needs_neither;
+  if (fallback && renderer_ && built_model_ == subject.model->key) return false;
+
+  std::string key = fmt::format("{} {} {}", subject.model->key, look.bands, static_cast<int>(look.show));
+  if (tables_ready) key += fmt::format(" {} {}", static_cast<const void*>(tables_.get()), static_cast<int>(look.shade));
+  if (transfer_ready) key += fmt::format(" {}", static_cast<const void*>(transfer_.get()));
+  if (key == built_key_) return false;
+
+  const bool lit = look.show == Show::kLit || look.show == Show::kDegree;
+  scale_ = lit || fallback ? light_scale(subject.light->drawn.coefficients) : LightScale{};
+  const RgbCoefficients light = scaled(scale_.unit, shaped_light(subject, look, look.bands));
+  bytes_ = 0;
+  if (look.show == Show::kNormals) {
+    renderer_.emplace(NormalRenderer());
+  } else if (transfer_ready) {
+    const Baked& content = subject.model->content;
+    if (subject.model->is_baked && content.info.pca)
+      renderer_.emplace(TransferRenderer(*content.info.pca, resize_bands(light, content.info.pca->bands)));
+    else
+      renderer_.emplace(TransferRenderer(*transfer_->transfer, light, subject.model->is_baked ? content.info.bits : 32));
+    bytes_ = transfer_->transfer->coefficients.size() * sizeof(float);
+  } else if (tables_ready) {
+    renderer_.emplace(ReflectanceRenderer(tables_->surfaces, light, look.shade, tables_->cubes, scale_.unit));
+    bytes_ = bytes_of(tables_->surfaces);
+  } else {
+    renderer_.emplace(IrradianceRenderer(light));
+    bytes_ = 3 * sizeof(float) * light.size();
+  }
+  built_key_ = key;
+  built_model_ = subject.model->key;
+  built_bands_ = look.bands;
+  built_show_ = fallback ? Show::kLit : look.show;
+  light_key_.clear();
+  return true;
+}
+
+// Gives the renderer and the background the light as it is now.
+void Side::refresh_light(const Subject& subject, const Look& look) {
+  const bool lit = built_show_ == Show::kLit || built_show_ == Show::kDegree;
+  const std::string key =
+      fmt::format("{} {} {} {}", subject.light->key, look.window, built_show_ == Show::kDegree ? look.degree : -1, lit);
+  if (key == light_key_) return;
+  light_key_ = key;
+  scale_ = lit ? light_scale(subject.light->drawn.coefficients) : LightScale{};
+  light_ = shaped_light(subject, look, built_bands_);
+  if (built_show_ == Show::kDegree) light_ = keep_degree(light_, std::min(look.degree, built_bands_ - 1));
+  const RgbCoefficients drawn = lit ? scaled(scale_.unit, light_) : visibility_light(built_bands_);
+  set_radiance(*renderer_, drawn);
+
+  const bool has_picture = subject.light->drawn.background.num_pixels() > 0 && built_show_ == Show::kLit;
+  const std::string background_key = has_picture ? subject.light->key : key;
+  if (background_key == background_key_ || !lit) return;
+  background_key_ = background_key;
+  if (has_picture)
+    background_.emplace(subject.light->drawn.background, scale_.unit);
+  else
+    background_.emplace(drawn);
+}
+
+bool Side::update(const Subject& subject, const Settings& settings, const Look& look, int width, int height) {
+  const bool resized = width != width_ || height != height_;
+  width_ = width, height_ = height;
+  bool changed = take_news() || resized;
+  if (look.method == Method::kReference) {
+    request_trace(subject, settings, look);
+  } else {
+    trace_.cancel();
+    if (needs_tables(look)) request_tables(subject, look);
+    if (needs_transfer(look)) request_bake(subject, look);
+    if (!needs_transfer(look)) bake_.cancel();
+    changed = build_renderer(subject, look) || changed;
+  }
+  return changed;
+}
+
+void Side::draw(const Subject& subject, const Settings& settings, const Look& look) {
+  const bool reference = look.method == Method::kReference;
+  if (reference && traced_.radiance.num_pixels() > 0) {
+    if (!traced_picture_ || traced_picture_->width() != width_ || traced_picture_->height() != height_)
+      traced_picture_.emplace(width_, height_);
+    const LightScale scale = light_scale(subject.light->drawn.coefficients);
+    traced_picture_->set(traced_.radiance, scale.unit);
+    traced_picture_->draw(exposed(scale, {{}, {}, settings.exposure, settings.curve}), settings.curve);
+    showing_trace_ = true;
+    return;
+  }
+  showing_trace_ = false;
+  if (reference) build_renderer(subject, {.method = Method::kIrradiance, .bands = look.bands, .window = look.window});
+  if (!renderer_) return;
+  refresh_light(subject, look);
+  if (!frame_ || frame_->width() != width_ || frame_->height() != height_) frame_.emplace(width_, height_);
+  const bool lit = built_show_ == Show::kLit || built_show_ == Show::kDegree;
+  FrameParams frame = {settings.camera, settings.rotate_light, lit ? settings.exposure : 0,
+                       lit ? settings.curve : ToneCurve::kNone};
+  const float bright = look.mark_negative ? static_cast<float>(1 / exposed(scale_, frame)) : 0;
+  mark_negative(*renderer_, {bright, 0, bright});
+  const GpuScene& scene = subject.gpu->get(needs_tangents(*renderer_), built_show_ != Show::kVisibility);
+  frame_->draw({scene, subject.model->extent, *renderer_, settings.background && lit ? &*background_ : nullptr, scale_},
+               frame);
+}
+
+unsigned Side::texture() const {
+  if (showing_trace_) return traced_picture_->texture();
+  return frame_ ? frame_->texture() : 0;
+}
+
+Image8 Side::read_picture() const {
+  return showing_trace_ ? traced_picture_->read_picture() : frame_->read_picture();
+}
+
+Image Side::read_radiance() const {
+  return showing_trace_ ? traced_.radiance : frame_->read_radiance();
+}
+
+bool Side::settled(const Look& look) const {
+  if (look.method == Method::kReference) return traced_.samples > 0 && traced_key_ == trace_.wanted();
+  return !table_.busy() && !bake_.busy();
+}
+
+std::string Side::activity() const {
+  if (bake_.busy()) return fmt::format("baking, {:.0f} %", 100 * bake_.fraction());
+  if (table_.busy()) return "computing how it reflects";
+  if (trace_.busy()) return traced_.samples > 0 ? fmt::format("{} paths a pixel", traced_.samples) : "tracing";
+  return "";
+}
+
+double Side::fraction() const {
+  return bake_.busy() ? bake_.fraction() : trace_.busy() ? trace_.fraction() : table_.fraction();
+}
+
+void Side::cancel() {
+  cancelled_ = bake_.busy() ? bake_.wanted() : table_.wanted();
+  bake_.cancel();
+  table_.cancel();
+}
+
+std::optional<std::string> Side::take_error() {
+  return std::exchange(error_, {});
+}
+
+}  // namespace shlight::viewer

@@ -1,0 +1,195 @@
+#include "studio.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "shlight/core/error.h"
+#include "shlight/scene/load_scene.h"
+
+namespace shlight::viewer {
+namespace {
+
+// What a picture depends on beside what is loaded and computed.
+std::string drawing_key(const Settings& s, const Look& look) {
+  std::string key = fmt::format("{} {} {} {} {} {} {} {} {} {} {}", s.camera.azimuth, s.camera.elevation, s.camera.zoom,
+                                s.camera.target.x, s.camera.target.y, s.camera.target.z, s.exposure,
+                                static_cast<int>(s.curve), s.background, look.window, look.mark_negative);
+  key += fmt::format(" {} {} {}", static_cast<int>(look.method), look.degree, static_cast<int>(look.show));
+  for (const Vec3d& row : s.rotate_light.rows) key += fmt::format(" {} {} {}", row.x, row.y, row.z);
+  return key;
+}
+
+}  // namespace
+
+Studio::Studio(const Settings& start, bool remember) : settings(start), initial_(start), recent_(remember) {}
+
+void Studio::open(const std::string& path) {
+  if (is_model_file(path) || is_baked_file(path))
+    settings.model = path, model_wanted_.clear();
+  else
+    settings.light = path, light_wanted_.clear();
+}
+
+void Studio::reset() {
+  const std::string model = settings.model, light = settings.light;
+  settings = initial_;
+  settings.model = model, settings.light = light;
+}
+
+void Studio::take_model() {
+  if (settings.model != model_wanted_) {
+    model_wanted_ = settings.model;
+    model_task_.request(
+        fmt::format("{} {}", ++serial_, settings.model),
+        [name = settings.model, serial = serial_](const auto& publish, const Progress&) {
+          publish(load_model(name, serial));
+        },
+        true);
+  }
+  auto news = model_task_.poll();
+  if (!news) return;
+  if (!news->error.empty()) {
+    say(news->error, true);
+    if (subject_.model) settings.model = model_wanted_ = subject_.model->name;  // the old one stays
+  } else if (news->result) {
+    subject_.model = *news->result;
+    subject_.gpu = std::make_shared<GpuModel>(subject_.model);
+    stale_ = {true, true};
+    recent_.add_model(subject_.model->name);
+    for (const std::string& warning : subject_.model->content.scene.warnings) say(warning);
+    if (subject_.model->is_baked) {
+      const Transfer& transfer = subject_.model->content.transfer;
+      settings.look().method = Method::kTransfer;
+      settings.look().bands = std::min(transfer.bands, kMaxRenderBands);
+      settings.look().transfer = transfer.kind;
+    }
+  }
+}
+
+void Studio::take_light() {
+  if (settings.light != light_wanted_) {
+    light_wanted_ = settings.light;
+    light_task_.request(
+        fmt::format("{} {}", ++serial_, settings.light),
+        [name = settings.light, serial = serial_](const auto& publish, const Progress& progress) {
+          load_lighting(name, serial, publish, progress);
+        },
+        true);
+  }
+  auto news = light_task_.poll();
+  if (!news) return;
+  if (!news->error.empty()) {
+    say(news->error, true);
+    if (subject_.light) settings.light = light_wanted_ = subject_.light->name;
+  } else if (news->result) {
+    const bool is_new = !subject_.light || subject_.light->name != (*news->result)->name;
+    subject_.light = *news->result;
+    stale_ = {true, true};
+    if (!is_new) return;
+    recent_.add_light(subject_.light->name);
+    for (const std::string& remark : remarks(subject_.light->loaded->info)) say(remark);
+  }
+}
+
+// Once both sides stand still: comparing takes a while.
+void Studio::request_difference() {
+  for (const int which : {0, 1})
+    if (!sides_[static_cast<std::size_t>(which)].settled(settings.looks[static_cast<std::size_t>(which)])) return;
+  // A reference that converges is compared at each doubling of its paths.
+  const auto doubling = [](int samples) {
+    int k = 0;
+    while (samples >>= 1) ++k;
+    return k;
+  };
+  const std::string key = fmt::format("{} {} {}", drawn_key_, doubling(sides_[0].traced_samples()),
+                                      doubling(sides_[1].traced_samples()));
+  if (key == difference_.wanted()) return;
+  const Image a = sides_[0].read_radiance(), b = sides_[1].read_radiance();
+  if (a.width == b.width && a.height == b.height) difference_.request(key, a, b);
+}
+
+bool Studio::update(int width, int height) {
+  take_model();
+  take_light();
+  const auto now = std::chrono::steady_clock::now();
+  bool changed = std::erase_if(messages_, [now](const Message& message) { return message.until < now; }) > 0;
+  if (!ready() || width < 1 || height < 1) return changed;
+  const bool resized = width != width_ || height != height_;
+  width_ = width, height_ = height;
+
+  std::string key = fmt::format("{} {} {} {}", subject_.model->key, subject_.light->key, width, height);
+  std::array<std::string, 2> keys;
+  for (const int which : {0, 1}) {
+    const auto i = static_cast<std::size_t>(which);
+    if (!settings.shows(which)) continue;
+    const Look& look = settings.looks[i];
+    try {
+      if (sides_[i].update(subject_, settings, look, width, height)) stale_[i] = true;
+      keys[i] = drawing_key(settings, look);
+      if (stale_[i] || resized || drawn_key_.find(fmt::format("[{} {}]", which, keys[i])) == std::string::npos) {
+        sides_[i].draw(subject_, settings, look);
+        stale_[i] = false;
+        changed = true;
+      }
+    } catch (const Error& error) {
+      // What the card cannot draw: the last picture stays.
+      say(error.what(), true);
+      stale_[i] = false;
+    }
+    key += fmt::format("[{} {}]", which, keys[i]);
+    if (const auto error = sides_[i].take_error()) say(*error, true);
+  }
+  drawn_key_ = key;
+  if (settings.compare == Compare::kDifference)
+    request_difference();
+  else
+    difference_.cancel();
+  return difference_.update() || changed;
+}
+
+bool Studio::settled(int samples) const {
+  if (!ready() || model_task_.busy() || light_task_.busy() || difference_.busy()) return false;
+  for (const int which : {0, 1}) {
+    if (!settings.shows(which)) continue;
+    const Look& look = settings.looks[static_cast<std::size_t>(which)];
+    if (!side(which).settled(look)) return false;
+    if (look.method == Method::kReference && side(which).traced_samples() < samples) return false;
+  }
+  return settings.compare != Compare::kDifference || difference_.result();
+}
+
+bool Studio::busy() const {
+  return model_task_.busy() || light_task_.busy() || difference_.busy() || !side(0).activity().empty() ||
+         !side(1).activity().empty();
+}
+
+Image8 Studio::picture() const {
+  if (settings.compare == Compare::kDifference && difference_.result()) return difference_.result()->map;
+  Image8 picture = side(settings.side).read_picture();
+  if (settings.compare != Compare::kSplit) return picture;
+  picture = side(0).read_picture();
+  const Image8 right = side(1).read_picture();
+  const auto first = static_cast<std::size_t>(std::clamp(settings.divider, 0.0, 1.0) * picture.width);
+  const auto row = 4 * static_cast<std::size_t>(picture.width);
+  for (std::size_t y = 0; y < static_cast<std::size_t>(picture.height); ++y)
+    std::copy(right.values.begin() + static_cast<std::ptrdiff_t>(y * row + 4 * first),
+              right.values.begin() + static_cast<std::ptrdiff_t>((y + 1) * row),
+              picture.values.begin() + static_cast<std::ptrdiff_t>(y * row + 4 * first));
+  return picture;
+}
+
+Image Studio::radiance() const {
+  return side(settings.side).read_radiance();
+}
+
+void Studio::say(const std::string& text, bool is_error) {
+  using namespace std::chrono_literals;
+  if (is_error) last_error_ = text;
+  messages_.push_front({text, is_error, std::chrono::steady_clock::now() + (is_error ? 12s : 6s)});
+  constexpr std::size_t kMost = 4;
+  if (messages_.size() > kMost) messages_.resize(kMost);
+}
+
+}  // namespace shlight::viewer

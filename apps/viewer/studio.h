@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <string>
+
+#include "difference.h"
+#include "model_asset.h"
+#include "recent.h"
+#include "settings.h"
+#include "side.h"
+
+namespace shlight::viewer {
+
+// All of the viewer but its window and controls: what is set, what is loaded, what is drawn.
+class Studio {
+ public:
+  Studio(const Settings& settings, bool remember);
+
+  Settings settings;
+
+  // Opens a file as what it seems to be: a model, a baked file or a light.
+  void open(const std::string& path);
+  // Everything but model and light as it was in the beginning.
+  void reset();
+
+  // Once a frame: takes in what has been computed, asks for what the settings need, and draws where anything has
+  // changed. The picture has this size. True where there is something new to see.
+  bool update(int width, int height);
+
+  bool ready() const { return subject_.model && subject_.light; }
+  // Nothing is being loaded or computed that the settings ask for; a reference counts as done with this many paths.
+  bool settled(int samples) const;
+  bool busy() const;
+
+  const Subject& subject() const { return subject_; }
+  Side& side(int which) { return sides_[static_cast<std::size_t>(which)]; }
+  const Side& side(int which) const { return sides_[static_cast<std::size_t>(which)]; }
+  const Difference& difference() const { return difference_; }
+  Recent& recent() { return recent_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool loading_model() const { return model_task_.busy(); }
+  bool loading_light() const { return light_task_.busy(); }
+
+  // The picture as shown, of one side or both; and as linear radiance.
+  Image8 picture() const;
+  Image radiance() const;
+
+  // What to tell, the newest first, each for a few seconds.
+  struct Message {
+    std::string text;
+    bool is_error = false;
+    std::chrono::steady_clock::time_point until;
+  };
+  void say(const std::string& text, bool is_error = false);
+  const std::deque<Message>& messages() const { return messages_; }
+  // The last error, for scripts; empty where there was none.
+  const std::string& last_error() const { return last_error_; }
+
+ private:
+  void take_model();
+  void take_light();
+  void request_difference();
+
+  Settings initial_;
+  Recent recent_;
+  Task<Model> model_task_;
+  Task<Lighting> light_task_;
+  int serial_ = 0;
+  std::string model_wanted_, light_wanted_;
+  Subject subject_;
+  std::array<Side, 2> sides_;
+  Difference difference_;
+  std::string drawn_key_;
+  std::array<bool, 2> stale_ = {true, true};
+  int width_ = 0, height_ = 0;
+  std::deque<Message> messages_;
+  std::string last_error_;
+};
+
+}  // namespace shlight::viewer
