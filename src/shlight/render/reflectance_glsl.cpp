@@ -79,14 +79,6 @@ std::string add_light(int channels, int l, char from) {
   return fmt::format("    plain += {};\n", sum(""));
 }
 
-// `count` numbers from the `first` of those in a and b: "vec3(a.w, b.x, b.y)".
-std::string numbers_of_texel(const std::string& type, int first, int count) {
-  std::string numbers;
-  for (int i = first; i < first + count; ++i)
-    numbers += fmt::format("{}{}.{}", i == first ? "" : ", ", i < 4 ? 'a' : 'b', "xyzw"[i % 4]);
-  return type + "(" + numbers + ")";
-}
-
 }  // namespace
 
 std::string make_reflectance_glsl(const ReflectanceGlslParams& params) {
@@ -98,12 +90,12 @@ std::string make_reflectance_glsl(const ReflectanceGlslParams& params) {
   const RotationMatrix q(bands, kFromYToZ);
   const char* const kTypes[] = {"float", "vec2", "vec3"};
   const std::string type = kTypes[params.channels - 1];
-  const int per_texel = coefficients_per_texel(params.channels);
+  // Four numbers a texel, but of three channels three.
+  const int per_texel = params.channels == 3 ? 3 : 4;
 
   std::string code = fmt::format("uniform vec3 u_sh[{}];\nuniform int u_once;\n\n", num_coefficients(bands));
   code +=
-      "void load_reflectance(int k, out vec4 a, out vec4 b);\n\nvoid eval_reflectance(vec3 n, vec3 t, out vec3 plain, "
-      "out vec3 tinted) {\n";
+      "vec4 reflectance_texel(int k);\n\nvoid eval_reflectance(vec3 n, vec3 t, out vec3 plain, out vec3 tinted) {\n";
   if (bands > 1) {
     // Over the poles every azimuth is right.
     code +=
@@ -112,7 +104,7 @@ std::string make_reflectance_glsl(const ReflectanceGlslParams& params) {
         "  float gc1 = bc1 * (ac1 * t.x + as1 * t.y) - bs1 * t.z, gs1 = ac1 * t.y - as1 * t.x;\n";
     for (const char angle : {'a', 'b', 'g'}) code += multiples(angle, bands);
   }
-  code += "  plain = tinted = vec3(0.0);\n  vec4 a, b;\n";
+  code += "  plain = tinted = vec3(0.0);\n  vec4 texel;\n";
 
   // Degree after degree, each a loop that runs once, for the reason told in sh_glsl.cpp.
   int loaded = -1;
@@ -121,12 +113,11 @@ std::string make_reflectance_glsl(const ReflectanceGlslParams& params) {
     // Stage f: the table's coefficients; those of negative m are zero where reflectance is isotropic.
     for (int m = params.isotropic ? 0 : -l; m <= l; ++m) {
       const int index = params.isotropic ? l * (l + 1) / 2 + m : coefficient_index(l, m);
-      if (index / per_texel != loaded) {
-        loaded = index / per_texel;
-        code += fmt::format("    load_reflectance({}, a, b);\n", loaded);
-      }
-      code += fmt::format("    {} {} = {};\n", type, name('f', l, m),
-                          numbers_of_texel(type, index % per_texel * params.channels, params.channels));
+      const int first = index * params.channels, texel = first / per_texel;
+      if (texel != loaded) code += fmt::format("    texel = reflectance_texel({});\n", texel);
+      loaded = texel;
+      code += fmt::format("    {} {} = texel.{};\n", type, name('f', l, m),
+                          std::string("xyzw").substr(first % per_texel, params.channels));
     }
     if (l == 0) {
       code += add_light(params.channels, l, 'f') + "  }\n";

@@ -16,19 +16,15 @@ namespace shlight {
 //
 // It takes them from a function that the program defines,
 //
-//   void load_reflectance(int k, out vec4 a, out vec4 b)
+//   vec4 reflectance_texel(int k)
 //
-// which gives, in a and then in b, coefficients k · n to (k + 1) · n − 1 with all their channels one after another,
-// where n = coefficients_per_texel. The light is in the uniforms that set_radiance_uniforms (render/sh_glsl.h) fills.
+// which returns four numbers of those of all coefficients and their channels, 4k … 4k+3; of three channels, the red,
+// green and blue of coefficient k. The light is in the uniforms that set_radiance_uniforms (render/sh_glsl.h) fills.
 struct ReflectanceGlslParams {
   int bands = 5;          // 1 to 10
   int channels = 1;       // 1: plain, grey; 2: tinted and plain, both grey; 3: plain, red, green and blue
   bool isotropic = true;  // F has only m >= 0, with index l(l+1)/2 + m, and t points to the eye's side
 };
-// Of eight numbers.
-constexpr int coefficients_per_texel(int channels) {
-  return 8 / channels;
-}
 std::string make_reflectance_glsl(const ReflectanceGlslParams& params);
 
 }  // namespace shlight

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <glm/gtc/packing.hpp>
 #include <numbers>
 #include <string>
 
@@ -26,52 +24,56 @@ int channels_of(const SurfaceReflectance& surface) {
 
 // Layers of the coefficients of one entry.
 int num_layers(int bands, int channels, bool isotropic) {
-  const int coefficients = isotropic ? bands * (bands + 1) / 2 : num_coefficients(bands);
-  const int per_texel = coefficients_per_texel(channels);
-  return (coefficients + per_texel - 1) / per_texel;
+  const int numbers = channels * (isotropic ? bands * (bands + 1) / 2 : num_coefficients(bands));
+  return channels == 3 ? numbers / 3 : (numbers + 3) / 4;
 }
 
-// A layer for every texel of an entry, as load_reflectance of reflect.glsl reads them; after them, where there is a
-// highlight, its plain and its tinted albedo. Halves are good to 1/2048 of each coefficient.
+// A layer for every texel of an entry, as reflectance_texel of reflect.glsl reads them; after them, where there is a
+// highlight, its plain and its tinted albedo.
 gl::Texture upload_table(const SurfaceReflectance& surface) {
   const ReflectanceTable& plain = *surface.plain;
-  SHLIGHT_ASSERT_LE(2, plain.width);
-  if (surface.tinted) SHLIGHT_ASSERT_EQ(surface.tinted->values.size(), plain.values.size());
-  const int channels = channels_of(surface);
+  const int channels = channels_of(surface), per_texel = channels == 3 ? 3 : 4;
   const std::size_t entry = static_cast<std::size_t>(plain.coefficients() * channels);
   const std::size_t entries = static_cast<std::size_t>(plain.width) * plain.height;
-  const std::size_t per_texel = static_cast<std::size_t>(coefficients_per_texel(channels) * channels);
   const int layers = num_layers(plain.bands, channels, plain.isotropic());
+  const int all_layers = surface.highlight ? layers + 2 : layers;
+  SHLIGHT_ASSERT_LE(2, plain.width);
+
+  // Number i of an entry; of two channels, tinted and plain take turns.
+  const auto number = [&](std::size_t at, std::size_t i) {
+    if (!surface.tinted) return plain.values[at * entry + i];
+    return (i % 2 == 0 ? surface.tinted->values : plain.values)[at * entry / 2 + i / 2];
+  };
+  if (surface.tinted) SHLIGHT_ASSERT_EQ(surface.tinted->values.size(), plain.values.size());
 
   gl::Texture texture = gl::make_texture();
   glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id());
-  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA32UI, plain.width, plain.height, layers + (surface.highlight ? 1 : 0));
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA32F, plain.width, plain.height, all_layers);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  // A layer's texels, from number k < per_texel of each entry.
-  const auto upload_layer = [&](int layer, std::size_t numbers, const auto& number) {
-    std::vector<std::uint16_t> halves(8 * entries);
+  std::vector<float> values(4 * entries);
+  for (int layer = 0; layer < layers; ++layer) {
     for (std::size_t at = 0; at < entries; ++at)
-      for (std::size_t k = 0; k < numbers; ++k) halves[8 * at + k] = glm::packHalf1x16(number(at, k));
-    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, plain.width, plain.height, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
-                    halves.data());
-  };
-  for (int layer = 0; layer < layers; ++layer)
-    upload_layer(layer, per_texel, [&](std::size_t at, std::size_t k) {
-      const std::size_t i = static_cast<std::size_t>(layer) * per_texel + k;
-      if (i >= entry) return 0.0f;
-      // Of two channels, tinted and plain take turns.
-      if (surface.tinted) return (i % 2 == 0 ? surface.tinted->values : plain.values)[at * entry / 2 + i / 2];
-      return plain.values[at * entry + i];
-    });
-  if (surface.highlight)
-    upload_layer(layers, 6, [&](std::size_t at, std::size_t k) {
-      if (k >= 3 && !surface.highlight->tinted) return 0.0f;
-      const ReflectanceTable& albedo = k < 3 ? surface.highlight->plain : *surface.highlight->tinted;
-      // The integral of f cos is the first coefficient over that of the constant 1.
-      return static_cast<float>(std::sqrt(4 * std::numbers::pi)) *
-             albedo.values[albedo.channels == 3 ? 3 * at + k % 3 : at];
-    });
+      for (int k = 0; k < per_texel; ++k) {
+        const std::size_t i = static_cast<std::size_t>(layer * per_texel + k);
+        values[4 * at + static_cast<std::size_t>(k)] = i < entry ? number(at, i) : 0;
+      }
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, plain.width, plain.height, 1, GL_RGBA, GL_FLOAT,
+                    values.data());
+  }
+  for (int layer = layers; layer < all_layers; ++layer) {
+    const ReflectanceTable* const albedo = layer == layers             ? &surface.highlight->plain
+                                           : surface.highlight->tinted ? &*surface.highlight->tinted
+                                                                       : nullptr;
+    for (std::size_t at = 0; at < entries; ++at)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t channel = albedo && albedo->channels == 3 ? 3 * at + k : at;
+        // The integral of f cos is the first coefficient over that of the constant 1.
+        values[4 * at + k] = albedo ? static_cast<float>(std::sqrt(4 * std::numbers::pi)) * albedo->values[channel] : 0;
+      }
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, plain.width, plain.height, 1, GL_RGBA, GL_FLOAT,
+                    values.data());
+  }
   gl::check_errors("a reflectance table's texture");
   return texture;
 }

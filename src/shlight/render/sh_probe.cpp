@@ -88,16 +88,12 @@ std::vector<Rgb> draw_reflectance_at(std::span<const Vec3d> normals, std::span<c
                                      const ReflectanceGlslParams& params, std::span<const float> coefficients,
                                      Vec3f base_color, const RgbCoefficients& radiance) {
   SHLIGHT_ASSERT_EQ(radiance.bands(), params.bands);
-  // As load_reflectance gives them.
-  const std::size_t numbers =
-      static_cast<std::size_t>(coefficients_per_texel(params.channels)) * static_cast<std::size_t>(params.channels);
-  std::vector<gl::Vec4f> texels(2 * ((coefficients.size() + numbers - 1) / numbers));
-  for (std::size_t i = 0; i < coefficients.size(); ++i)
-    texels[2 * (i / numbers) + i % numbers / 4][i % numbers % 4] = coefficients[i];
+  // As reflectance_texel returns them.
+  const std::size_t per_texel = params.channels == 3 ? 3 : 4;
+  std::vector<gl::Vec4f> texels((coefficients.size() + per_texel - 1) / per_texel);
+  for (std::size_t i = 0; i < coefficients.size(); ++i) texels[i / per_texel][i % per_texel] = coefficients[i];
   const std::string texel = fmt::format(
-      "uniform vec4 u_texels[{}];\n"
-      "void load_reflectance(int k, out vec4 a, out vec4 b) {{ a = u_texels[2 * k], b = u_texels[2 * k + 1]; }}\n",
-      texels.size());
+      "uniform vec4 u_texels[{}];\nvec4 reflectance_texel(int k) {{ return u_texels[k]; }}\n", texels.size());
   return draw_at({normals, tangents}, shaders::reflectance_probe_frag, texel + make_reflectance_glsl(params),
                  [&](const gl::Program& program) {
                    set_radiance_uniforms(program, radiance);

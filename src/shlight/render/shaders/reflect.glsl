@@ -1,11 +1,11 @@
 
 // The radiance that a surface leaves toward the eye, by its table of reflectance coefficients: layer k of the texture
-// holds what load_reflectance(k) gives of all views, eight halves in four words, placed as brdf/reflectance_table.h says.
-// ANISOTROPIC is defined where the table is of both the view's polar angle and its azimuth from the tangent;
-// HIGHLIGHT_LAYER, the layer with the albedo of highlights, plain and tinted, where those reflect the light's residual
-// too. For vertex and fragment shaders.
+// holds reflectance_texel(k) of all views, placed as brdf/reflectance_table.h says. ANISOTROPIC is defined where the
+// table is of both the view's polar angle and its azimuth from the tangent; HIGHLIGHT_LAYER, the first of two layers with
+// the albedo of highlights, plain and tinted, where those reflect the light's residual too. For vertex and fragment
+// shaders.
 
-uniform highp usampler2DArray u_reflectance;
+uniform highp sampler2DArray u_reflectance;
 
 #ifdef HIGHLIGHT_LAYER
 uniform highp samplerCube u_residual;  // averaged over the slim side of the highlight
@@ -18,26 +18,15 @@ void eval_reflectance(vec3 n, vec3 t, out vec3 plain, out vec3 tinted);
 ivec2 g_first;  // of the entries around the view
 vec2 g_share;   // of the next ones
 
-void unpack(uvec4 words, out vec4 a, out vec4 b) {
-  a = vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y));
-  b = vec4(unpackHalf2x16(words.z), unpackHalf2x16(words.w));
-}
-
-// Of two neighbours along x.
-void load_row(ivec3 place, out vec4 a, out vec4 b) {
-  vec4 next_a, next_b;
-  unpack(texelFetch(u_reflectance, place, 0), a, b);
-  unpack(texelFetch(u_reflectance, place + ivec3(1, 0, 0), 0), next_a, next_b);
-  a = mix(a, next_a, g_share.x), b = mix(b, next_b, g_share.x);
-}
-
-void load_reflectance(int k, out vec4 a, out vec4 b) {
+vec4 reflectance_texel(int k) {
   ivec3 place = ivec3(g_first, k);
-  load_row(place, a, b);
+  vec4 row = mix(texelFetch(u_reflectance, place, 0), texelFetch(u_reflectance, place + ivec3(1, 0, 0), 0), g_share.x);
 #ifdef ANISOTROPIC
-  vec4 next_a, next_b;
-  load_row(place + ivec3(0, 1, 0), next_a, next_b);
-  a = mix(a, next_a, g_share.y), b = mix(b, next_b, g_share.y);
+  vec4 next = mix(texelFetch(u_reflectance, place + ivec3(0, 1, 0), 0),
+                  texelFetch(u_reflectance, place + ivec3(1, 1, 0), 0), g_share.x);
+  return mix(row, next, g_share.y);
+#else
+  return row;
 #endif
 }
 
@@ -74,9 +63,7 @@ void reflect_light(vec3 n, vec3 tangent, vec3 to_eye, out vec3 plain, out vec3 t
 #else
   vec3 residual = textureLod(u_residual, reflect(-v, n), 0.0).rgb;
 #endif
-  vec4 a, b;  // plain, then tinted
-  load_reflectance(HIGHLIGHT_LAYER, a, b);
-  plain += residual * a.rgb;
-  tinted += residual * vec3(a.w, b.xy);
+  plain += residual * reflectance_texel(HIGHLIGHT_LAYER).rgb;
+  tinted += residual * reflectance_texel(HIGHLIGHT_LAYER + 1).rgb;
 #endif
 }
