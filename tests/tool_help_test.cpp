@@ -13,7 +13,7 @@ TEST_F(ToolHelp, EveryCommandHasAnExample) {
   const ToolRun program = run({"--help"});
   EXPECT_EQ(program.err, "");
   for (const std::string command :
-       {"project", "project-brdf", "render", "bake", "info", "demo", "convert-map", "compare"}) {
+       {"project", "project-brdf", "render", "bake", "info", "demo", "convert-map", "compare", "bands", "bench"}) {
     EXPECT_NE(program.out.find("\n  " + command + " "), std::string::npos) << program;
     const ToolRun help = run({command, "--help"});
     EXPECT_EQ(help.err, "");

@@ -214,6 +214,37 @@ TEST_F(ToolRender, BakedFilesAreDrawnAsTheyAre) {
   refuse({"--samples", "64"}, "is baked already: --samples cannot change it");
 }
 
+// What is baked shadows glossy things, too; cosine transfer shadows nothing.
+TEST_F(ToolRender, BakesShadowReflectance) {
+  const auto picture = [&](const std::string& model, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {
+        "render", model,   "--material", "ggx:alpha=0.4,f0=0.9", "--bands",        "3", "--light", axes_,
+        "--size", "80x60", "-o",         path("a.exr"),          "--no-background"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    run(arguments);
+    return load_image(path("a.exr")).image;
+  };
+  const std::string glb = path("a.glb");
+  run({"bake", "builtin:knot", "-o", glb, "--transfer", "shadowed", "--bands", "3", "--samples", "64"});
+  const Image open = picture("builtin:knot", {}), shadowed = picture(glb, {});
+  EXPECT_LT(max_difference(picture("builtin:knot", {"--transfer", "cosine"}), open), 1e-3);
+  EXPECT_EQ(picture("builtin:knot", {"--transfer", "shadowed", "--samples", "64"}).values, shadowed.values);
+  double open_sum = 0, shadowed_sum = 0;
+  for (const float v : open.values) open_sum += double{v};
+  for (const float v : shadowed.values) shadowed_sum += double{v};
+  EXPECT_LT(shadowed_sum, 0.95 * open_sum);
+  EXPECT_GT(shadowed_sum, 0.3 * open_sum);
+}
+
+TEST_F(ToolRender, BenchTimesEveryMethod) {
+  const auto bench = run_json({"bench", "render", "builtin:sphere", "--light", axes_, "--bands", "2", "--size", "32x24",
+                               "--frames", "1", "--rounds", "1"});
+  EXPECT_EQ(bench["width"], 32);
+  EXPECT_EQ(bench["methods"].size(), 9u);
+  EXPECT_EQ(bench["methods"][0]["ratio"], 1.0);
+  for (const auto& method : bench["methods"]) EXPECT_GT(method["frame_ms"].get<double>(), 0) << method;
+}
+
 // Not after the hours that this would take to bake.
 TEST_F(ToolRender, WhatCannotBeWrittenIsToldBeforeBaking) {
   const std::string output = path("missing/a.png");

@@ -134,6 +134,7 @@ void run_bench(const BenchArguments& arguments) {
 void add_bench(CLI::App& program, Run& run) {
   auto* bench = program.add_subcommand("bench", "Measure how long this machine takes");
   bench->require_subcommand(1);
+  bench->footer("Example:\n  shlight bench render head.x --light venice.hdr");
   auto* command = bench->add_subcommand("render", "Frame times of every method of drawing, in one table");
   const auto arguments = std::make_shared<BenchArguments>();
   RenderParams& params = arguments->params;

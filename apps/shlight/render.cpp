@@ -54,8 +54,11 @@ void check_render_options(const CLI::App& command, RenderArguments& arguments) {
   const std::string& method = arguments.method;
   const bool is_reference = method == "reference", is_reflectance = method == "reflectance" || method == "hybrid";
   for (const char* option : {"--transfer", "--samples", "--bounces"})
-    if (given(option) && method != "transfer" && !is_reference)
-      throw CLI::ValidationError(option, "only with --method transfer or reference");
+    if (given(option) && method == "irradiance")
+      throw CLI::ValidationError(option, "not with --method irradiance, which knows no transfer");
+  if (is_reflectance && !given("--transfer"))
+    for (const char* option : {"--samples", "--bounces"})
+      if (given(option)) throw CLI::ValidationError(option, "only with --transfer");
   for (const char* option : {"--bands", "--window", "--mark-negative", "--frames", "--show"})
     if (given(option) && is_reference) throw CLI::ValidationError(option, "not with --method reference");
   for (const char* option : {"--deviation", "--gloss"})
@@ -109,7 +112,7 @@ void add_render(CLI::App& program, Run& run) {
           "--method", arguments->method,
           "How the model is lit: by its normals; by what is baked for each vertex, now (--transfer) or before "
           "where MODEL is a file of shlight bake; by how its materials or --material reflect (hybrid: in highlights "
-          "all of the light, not only its first bands); or path traced "
+          "all of the light, not only its first bands), shadowed by what is baked, if it is; or path traced "
           "without spherical harmonics, what the others approximate (--transfer, --samples a pixel)")
       ->type_name("irradiance|transfer|reflectance|hybrid|reference")
       ->default_str("irradiance, with --material reflectance")

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 
 #include "render.h"
 #include "shlight/brdf/make_brdf.h"
@@ -55,7 +56,7 @@ TransferToDraw load_transfer(const RenderArguments& arguments) {
     throw Error(arguments.model, "is baked already: --samples cannot change it", accepted);
   if (arguments.bounces_given && arguments.bake.bounces != info.params.bounces)
     throw Error(arguments.model, "is baked already: --bounces cannot change it", accepted);
-  if (arguments.bands_given && arguments.params.bands > transfer.bands)
+  if (arguments.method == "transfer" && arguments.bands_given && arguments.params.bands > transfer.bands)
     throw Error(arguments.model, fmt::format("holds {} bands and not {}", transfer.bands, arguments.params.bands),
                 fmt::format("--bands 1 to {}", transfer.bands));
   spdlog::info("{}: {} transfer of {} vertices, {} bands, {}, baked from {}", arguments.model, to_text(transfer.kind),
@@ -97,9 +98,9 @@ RenderResult draw_reflectance(const RenderArguments& arguments, const Scene& sce
       brdf ? make_surface_reflectances(scene, *brdf, table, hybrid)
            : make_surface_reflectances(scene, table, hybrid, progress_bar("making reflectance tables"));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  json = {{"material", brdf ? arguments.material : "own"},
-          {"shade", params.shade == Shade::kPixel ? "pixel" : "vertex"},
-          {"table_seconds", seconds}};
+  json.update({{"material", brdf ? arguments.material : "own"},
+               {"shade", params.shade == Shade::kPixel ? "pixel" : "vertex"},
+               {"table_seconds", seconds}});
   const auto draw = hybrid ? render_hybrid : render_reflectance;
   return draw(scene, surfaces, light, params, progress_bar("drawing"));
 }
@@ -170,7 +171,7 @@ Image8 compare_with_reference(const RenderArguments& arguments, const Baked& dra
   PathTraceParams params = make_trace_params(render);
   params.samples = arguments.compare_samples;
   params.transfer = TransferKind::kCosine;
-  if (arguments.method == "transfer") {
+  if (drawn.transfer.num_vertices() > 0) {
     params.transfer = drawn.transfer.kind;
     params.bounces = is_baked_file(arguments.model) ? drawn.info.params.bounces : arguments.bake.bounces;
   }
@@ -202,7 +203,10 @@ Image8 compare_with_reference(const RenderArguments& arguments, const Baked& dra
 
 void run_render(const RenderArguments& arguments) {
   const bool transfer = arguments.method == "transfer";
-  const bool is_baked = transfer && is_baked_file(arguments.model);
+  const bool is_reflectance = arguments.method == "reflectance" || arguments.method == "hybrid";
+  // What is baked shadows surfaces that reflect by tables, too.
+  const bool is_baked = (transfer || is_reflectance) && is_baked_file(arguments.model);
+  const bool bakes_now = !is_baked && (transfer || (is_reflectance && arguments.kind_given));
   TransferToDraw drawn;
   if (is_baked)
     drawn = load_transfer(arguments);
@@ -211,7 +215,8 @@ void run_render(const RenderArguments& arguments) {
   const LoadedLight loaded = load_light_aloud(arguments.light, arguments.load);
 
   RenderParams params = arguments.params;
-  if (is_baked && !arguments.bands_given) params.bands = std::min(drawn.baked.transfer.bands, kMaxRenderBands);
+  if (is_baked && transfer && !arguments.bands_given)
+    params.bands = std::min(drawn.baked.transfer.bands, kMaxRenderBands);
   params.show_background = !arguments.no_background;
   params.rotate_light = rotation_about_y(arguments.rotate_light * std::numbers::pi / 180) * arguments.shape.rotation;
   if (arguments.method == "reference") return run_reference(arguments, drawn.baked.scene, *loaded.light, params);
@@ -219,17 +224,19 @@ void run_render(const RenderArguments& arguments) {
   light.coefficients = apply_window(arguments.shape, light.coefficients);
   const std::filesystem::path output = output_of(arguments);
 
-  if (transfer && !is_baked) {
+  if (bakes_now) {
     // What can fail at once is not to fail after minutes of baking.
     if (!output.empty()) check_writable(output);
     { const HeadlessContext can_draw; }
     drawn = bake_now(arguments, std::move(drawn.baked.scene));
   }
   const Scene& scene = drawn.baked.scene;
-  const RenderResult result = transfer ? render_baked(drawn.baked, light, params, progress_bar("drawing"))
-                              : arguments.method == "reflectance" || arguments.method == "hybrid"
-                                  ? draw_reflectance(arguments, scene, light, params, drawn.json)
-                                  : render_irradiance(scene, light, params, progress_bar("drawing"));
+  std::optional<ShadowRatio> shadows;
+  if (is_reflectance && (is_baked || bakes_now)) shadows.emplace(scene, drawn.baked.transfer);
+  params.shadows = shadows ? &*shadows : nullptr;
+  const RenderResult result = transfer         ? render_baked(drawn.baked, light, params, progress_bar("drawing"))
+                              : is_reflectance ? draw_reflectance(arguments, scene, light, params, drawn.json)
+                                               : render_irradiance(scene, light, params, progress_bar("drawing"));
 
   nlohmann::ordered_json comparison;
   if (arguments.compare) {

@@ -16,7 +16,7 @@ namespace shlight {
 namespace {
 
 // The locations that mesh.vert gives its attributes.
-enum Attribute { kPosition = 0, kNormal = 1, kTexcoord = 2, kColor = 3, kTangent = 4 };
+enum Attribute { kPosition = 0, kNormal = 1, kTexcoord = 2, kColor = 3, kTangent = 4, kShadow = 5 };
 
 // More costs time and is hardly seen.
 constexpr float kMaxAnisotropy = 8;
@@ -80,6 +80,7 @@ glm::dmat3 normal_matrix(const glm::dmat3& m) {
 GpuScene::GpuScene(const Scene& scene, bool tangents)
     : instances_(scene.instances),
       materials_(scene.materials),
+      shadows_(gl::make_buffer()),
       white_(make_white_texture()),
       num_vertices_(shlight::num_vertices(scene)) {
   for (const Image8& image : scene.textures) textures_.push_back(upload_texture(image));
@@ -111,6 +112,14 @@ GpuScene::GpuScene(const Scene& scene, bool tangents)
   gl::check_errors("the scene's buffers and textures");
 }
 
+void GpuScene::set_shadows(std::span<const Vec3f> of_vertices) {
+  SHLIGHT_ASSERT_EQ(of_vertices.size(), num_vertices_);
+  glBindBuffer(GL_ARRAY_BUFFER, shadows_.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(of_vertices.size_bytes()), of_vertices.data(), GL_DYNAMIC_DRAW);
+  gl::check_errors("the shadows of vertices");
+  has_shadows_ = true;
+}
+
 void GpuScene::draw(const gl::Program& program, const View& view, const Rotation& light_to_world) const {
   draw([&](std::uint32_t) -> const gl::Program& { return program; }, view, light_to_world);
 }
@@ -128,6 +137,7 @@ void GpuScene::draw(const ProgramOfMaterial& program_of, const View& view, const
   glDisable(GL_BLEND);
   glVertexAttrib2f(kTexcoord, 0, 0);
   glVertexAttrib3f(kColor, 1, 1, 1);
+  glVertexAttrib3f(kShadow, 1, 1, 1);
 
   std::size_t first_vertex = 0;
   for (const Instance& instance : instances_) {
@@ -141,13 +151,19 @@ void GpuScene::draw(const ProgramOfMaterial& program_of, const View& view, const
     program.set("u_object_to_clip", to_mat4f(world_to_clip * to_world));
     program.set("u_normal_to_light", to_mat3f(world_to_light * normal_matrix(glm::dmat3(to_world))));
     program.set("u_first_vertex", static_cast<int>(first_vertex));
-    first_vertex += mesh.num_vertices;
     program.set("u_base_color", material.base_color);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, material.texture ? textures_[*material.texture].id() : white_.id());
     // A mirroring instance turns the winding around.
     glFrontFace(glm::determinant(glm::dmat3(to_world)) < 0 ? GL_CW : GL_CCW);
     glBindVertexArray(mesh.vertex_array.id());
+    if (has_shadows_) {
+      glBindBuffer(GL_ARRAY_BUFFER, shadows_.id());
+      glEnableVertexAttribArray(kShadow);
+      glVertexAttribPointer(kShadow, 3, GL_FLOAT, GL_FALSE, 0,
+                            reinterpret_cast<const void*>(first_vertex * sizeof(Vec3f)));
+    }
+    first_vertex += mesh.num_vertices;
     glDrawElements(GL_TRIANGLES, mesh.num_indices, GL_UNSIGNED_INT, nullptr);
   }
   glFrontFace(GL_CCW);

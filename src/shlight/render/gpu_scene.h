@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "shlight/render/gl.h"
@@ -30,6 +31,10 @@ class GpuScene {
   // The same with one program for all.
   void draw(const gl::Program& program, const View& view, const Rotation& light_to_world) const;
 
+  // What the vertex shaders mesh.vert and reflectance_vertex.vert hand on as v_shadow, for each vertex; 1 before it is
+  // set.
+  void set_shadows(std::span<const Vec3f> of_vertices);
+
   // Of all instances. A mesh's vertices keep their sequence, and instances theirs: vertex v of an instance is the
   // (first vertex + v)th.
   std::size_t num_vertices() const { return num_vertices_; }
@@ -47,6 +52,8 @@ class GpuScene {
   std::vector<Instance> instances_;
   std::vector<Material> materials_;
   std::vector<gl::Texture> textures_;
+  gl::Buffer shadows_;
+  bool has_shadows_ = false;
   gl::Texture white_;  // of materials without a texture
   std::size_t num_vertices_;
 };

@@ -16,8 +16,10 @@
 #include "shlight/light/light.h"
 #include "shlight/render/render.h"
 #include "shlight/render/render_test_util.h"
+#include "shlight/scene/load_scene.h"
 #include "shlight/scene/shapes.h"
 #include "shlight/sh/zonal.h"
+#include "shlight/transfer/shadow_ratio.h"
 
 namespace shlight {
 namespace {
@@ -279,6 +281,46 @@ TEST_F(ReflectanceRendererTest, HybridMirrorShowsTheLight) {
     const Rgb expected = eval_bilinear(environment, {2 * nz * nx, 0, 2 * nz * nz - 1});
     // Facets of α = 0.01 still scatter some of the spot.
     EXPECT_NEAR(image.rgb(x, kSize / 2).r, expected.r, 0.08 * expected.r + 0.02) << x;
+  }
+}
+
+TEST_F(ReflectanceRendererTest, BakedShadowsAreThoseOfTransfer) {
+  // Of matte surfaces, reflectance times the share of irradiance is the transfer's own sum.
+  Scene scene = make_scene("builtin:scene");
+  for (Mesh& mesh : scene.meshes) mesh.colors.clear();
+  scene.textures.clear();
+  for (Material& material : scene.materials) material = {material.name, {1, 1, 1}, {}, {}};
+  BakeParams bake;
+  bake.kind = TransferKind::kShadowed;
+  bake.bands = 3;
+  bake.samples = 64;
+  const Transfer transfer = bake_transfer(scene, bake);
+  const ShadowRatio shadows(scene, transfer);
+  RenderParams params;
+  params.bands = 3;
+  params.width = 160, params.height = 120;
+  params.show_background = false;
+  params.rotate_light = rotation_about_y(1);
+  RgbCoefficients light = constant_light(3, {1, 1, 1});
+  light[1] = {0.8, 0.6, 0.4};
+  light[3] = {0.3, 0.3, 0.6};
+  const auto surfaces = make_surface_reflectances(scene, *make_brdf("lambert:rho=1"), table_params(3));
+  const Image open = draw(scene, surfaces, light, params);
+  const Image expected = render_transfer(scene, transfer, {light, {}}, params).radiance;
+  const auto difference = [&](const Image& image) {
+    double sum = 0, square = 0;
+    for (std::size_t i = 0; i < expected.values.size(); ++i) {
+      sum += std::pow(double{image.values[i]} - double{expected.values[i]}, 2);
+      square += std::pow(double{expected.values[i]}, 2);
+    }
+    return std::sqrt(sum / square);
+  };
+  EXPECT_GT(difference(open), 0.1) << "a scene whose shadows matter";
+  params.shadows = &shadows;
+  for (const Shade shade : {Shade::kPixel, Shade::kVertex}) {
+    params.shade = shade;
+    // Both are linear across triangles, but their product is not; and nothing is ever quite black.
+    EXPECT_LT(difference(draw(scene, surfaces, light, params)), 0.03);
   }
 }
 

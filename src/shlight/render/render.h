@@ -14,6 +14,7 @@
 #include "shlight/sh/coefficients.h"
 #include "shlight/sh/rotation.h"
 #include "shlight/transfer/baked_file.h"
+#include "shlight/transfer/shadow_ratio.h"
 #include "shlight/transfer/transfer.h"
 
 namespace shlight {
@@ -42,6 +43,8 @@ struct RenderParams {
   bool show_background = true;
   bool mark_negative = false;   // magenta stripes where a channel of what a surface leaves is below zero
   Shade shade = Shade::kPixel;  // by the reflectance method
+  // Of the scene's transfer, for methods that have none: irradiance, reflectance, hybrid.
+  const ShadowRatio* shadows = nullptr;
 };
 
 struct RenderResult {

@@ -8,6 +8,7 @@ layout(location = 1) in vec3 a_normal;
 layout(location = 2) in vec2 a_texcoord;
 layout(location = 3) in vec3 a_color;
 layout(location = 4) in vec3 a_tangent;
+layout(location = 5) in vec3 a_shadow;
 
 uniform mat4 u_object_to_clip;
 uniform mat4 u_object_to_eye;  // axes of the light's frame, the eye in the origin
@@ -18,6 +19,7 @@ out highp vec3 v_tangent;  // of any length
 out highp vec3 v_to_eye;   // of any length
 out highp vec2 v_texcoord;
 out highp vec3 v_color;
+out highp vec3 v_shadow;  // factor of radiance
 
 void main() {
   v_normal = u_normal_to_light * a_normal;
@@ -25,5 +27,6 @@ void main() {
   v_to_eye = -(u_object_to_eye * vec4(a_position, 1.0)).xyz;
   v_texcoord = a_texcoord;
   v_color = a_color;
+  v_shadow = a_shadow;
   gl_Position = u_object_to_clip * vec4(a_position, 1.0);
 }

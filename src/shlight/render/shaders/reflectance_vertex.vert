@@ -9,6 +9,7 @@ layout(location = 1) in vec3 a_normal;
 layout(location = 2) in vec2 a_texcoord;
 layout(location = 3) in vec3 a_color;
 layout(location = 4) in vec3 a_tangent;
+layout(location = 5) in vec3 a_shadow;
 
 uniform mat4 u_object_to_clip;
 uniform mat4 u_object_to_eye;  // axes of the light's frame, the eye in the origin
@@ -26,6 +27,7 @@ void main() {
   n *= inversesqrt(max(dot(n, n), 1e-20));
   reflect_light(n, (u_object_to_eye * vec4(a_tangent, 0.0)).xyz, -(u_object_to_eye * vec4(a_position, 1.0)).xyz,
                 v_plain, v_tinted);
+  v_plain *= a_shadow, v_tinted *= a_shadow;
   v_texcoord = a_texcoord;
   v_color = a_color;
   gl_Position = u_object_to_clip * vec4(a_position, 1.0);
