@@ -175,7 +175,8 @@ class Baker {
 
   // Some sites once more, with other samples.
   void estimate_error() {
-    const std::vector<SiteRange> groups = pilot_groups(sites_);
+    constexpr std::size_t kPilotSites = 1024;
+    const std::vector<SiteRange> groups = pilot_groups(sites_, kPilotSites);
     const std::size_t n = num_values();
     std::vector<double> baked;
     for (const auto& [begin, end] : groups) {

@@ -19,9 +19,10 @@ DensityChoice choose_density(const Tracer& tracer, const Sites& sites, int bands
   // The rule for the error is trusted over a factor of two in density, and the steps to there are no larger than four.
   constexpr double kTrusted = 2, kStep = 4;
   constexpr int kMaxRounds = 5;
+  constexpr std::size_t kPilotSites = 512;
   DensityChoice choice;
   double tried = 8;
-  const std::vector<SiteRange> groups = pilot_groups(sites);
+  const std::vector<SiteRange> groups = pilot_groups(sites, kPilotSites);
   for (int round = 1;; ++round) {
     const SamplePlan plan = make_adaptive_plan(bands, tried, seed, threads);
     // Other sets and other turns than the bake's own.
