@@ -16,12 +16,12 @@ constexpr double kMaxDensity = kMaxTransferSamples / kCells / 2;
 
 DensityChoice choose_density(const Tracer& tracer, const Sites& sites, int bands, double error, std::uint64_t seed,
                              int threads) {
-  // The rule for the error is trusted over a factor of two in density, and the steps to there are no larger than four.
-  constexpr double kTrusted = 2, kStep = 4;
+  // The rule for the error is trusted over so small a factor in density, and the steps to there are no larger than four.
+  constexpr double kTrusted = 1.5, kStep = 4;
   constexpr int kMaxRounds = 5;
   constexpr std::size_t kPilotSites = 512;
   DensityChoice choice;
-  double tried = 8;
+  double tried = 4;
   const std::vector<SiteRange> groups = pilot_groups(sites, kPilotSites);
   for (int round = 1;; ++round) {
     const SamplePlan plan = make_adaptive_plan(bands, tried, seed, threads);
