@@ -16,7 +16,8 @@ constexpr double kMaxDensity = kMaxTransferSamples / kCells / 2;
 
 DensityChoice choose_density(const Tracer& tracer, const Sites& sites, int bands, double error, std::uint64_t seed,
                              int threads) {
-  // The rule for the error is trusted over so small a factor in density, and the steps to there are no larger than four.
+  // The rule for the error is trusted over so small a factor in density, and the steps to there are no larger than
+  // four.
   constexpr double kTrusted = 1.5, kStep = 4;
   constexpr int kMaxRounds = 5;
   constexpr std::size_t kPilotSites = 512;
