@@ -5,17 +5,11 @@
 #include "shlight/scene/builtin_scene.h"
 #include "shlight/scene/load_scene.h"
 #include "shlight/transfer/baked_file.h"
+#include "shlight/transfer/transfer_test_util.h"
 #include "tool_test_util.h"
 
 namespace shlight {
 namespace {
-
-BakeParams cosine_params(int bands) {
-  BakeParams params;
-  params.kind = TransferKind::kCosine;
-  params.bands = bands;
-  return params;
-}
 
 class ToolBake : public ToolTest {};
 
@@ -28,10 +22,13 @@ TEST_F(ToolBake, WritesWhatTheLibraryBakes) {
   EXPECT_EQ(json["bytes_per_vertex"], baked_bytes_per_vertex(4, 1));
   EXPECT_EQ(json["file_bytes"], std::filesystem::file_size(file));
   for (const char* key : {"rays", "seconds", "rays_per_second"}) EXPECT_TRUE(json[key].is_number()) << key;
+  // At least what the file holds, since it is put together in memory; and a sphere's is nothing like a gigabyte.
+  EXPECT_GT(json["peak_bytes"], json["file_bytes"]);
+  EXPECT_LT(json["peak_bytes"], 1e9);
   EXPECT_EQ(contents().size(), 1u) << "no checkpoint is left";
 
   const Baked baked = load_baked(file);
-  const Transfer transfer = bake_transfer(scene, cosine_params(4));
+  const Transfer transfer = bake_transfer(scene, make_cosine_params(4));
   EXPECT_EQ(baked.transfer.coefficients, transfer.coefficients);
   EXPECT_EQ(baked.info.params.kind, TransferKind::kCosine);
   EXPECT_EQ(baked.info.model, "builtin:sphere");
@@ -98,7 +95,7 @@ TEST_F(ToolBake, ClusteredPcaCostsLittle) {
   for (const char* key : {"clusters", "components", "bits", "bytes_per_vertex", "vertices"})
     EXPECT_EQ(info[key], usual[key]) << key;
   const Baked baked = load_baked(file);
-  const Transfer transfer = bake_transfer(make_sphere_scene(), cosine_params(5));
+  const Transfer transfer = bake_transfer(make_sphere_scene(), make_cosine_params(5));
   ASSERT_TRUE(baked.info.pca);
   EXPECT_EQ(baked.transfer.coefficients, pca_coefficients(compress_pca(transfer)));
 }

@@ -11,6 +11,7 @@
 
 #include "command.h"
 #include "shlight/core/error.h"
+#include "shlight/core/peak_memory.h"
 #include "shlight/scene/load_scene.h"
 #include "shlight/transfer/baked_file.h"
 #include "shlight/transfer/clustered_pca.h"
@@ -124,9 +125,12 @@ void run_bake(const BakeArguments& arguments) {
 
   const double rays_per_second = transfer.seconds > 0 ? static_cast<double>(status.rays) / transfer.seconds : 0;
   const double bytes_per_vertex = baked_bytes_per_vertex(transfer, info);
-  spdlog::info("{}: {} transfer of {} vertices, {} bands, {:.4g} bytes a vertex, {:.3g} million rays in {:.3g} s",
-               arguments.output.string(), to_text(transfer.kind), transfer.num_vertices(), transfer.bands,
-               bytes_per_vertex, 1e-6 * static_cast<double>(transfer.rays), transfer.seconds);
+  const std::uint64_t peak_bytes = peak_memory();
+  spdlog::info(
+      "{}: {} transfer of {} vertices, {} bands, {:.4g} bytes a vertex, {:.3g} million rays in {:.3g} s, {:.3g} MB of "
+      "memory at most",
+      arguments.output.string(), to_text(transfer.kind), transfer.num_vertices(), transfer.bands, bytes_per_vertex,
+      1e-6 * static_cast<double>(transfer.rays), transfer.seconds, 1e-6 * static_cast<double>(peak_bytes));
   ShadingError cost;
   if (info.bits < 32) {
     cost = worst_shading_error(transfer, stored_transfer(transfer, info));
@@ -144,6 +148,7 @@ void run_bake(const BakeArguments& arguments) {
                 {"estimated_error", transfer.estimated_error},
                 {"seconds", transfer.seconds},
                 {"rays_per_second", rays_per_second},
+                {"peak_bytes", peak_bytes},
                 {"bytes_per_vertex", bytes_per_vertex},
                 {"transfer_bytes_per_vertex", bytes_per_vertex - static_cast<double>(baked_bytes_per_vertex(0, 1))},
                 {"compress", arguments.compression.name},

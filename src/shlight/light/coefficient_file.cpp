@@ -8,6 +8,7 @@
 
 #include "shlight/core/error.h"
 #include "shlight/core/file.h"
+#include "shlight/sh/convention_text.h"
 
 namespace shlight {
 namespace {
@@ -18,16 +19,11 @@ using nlohmann::ordered_json;
 constexpr int kMaxBands = 256;
 constexpr std::uint64_t kMaxBytes = 64 << 20;
 
-ordered_json convention() {
-  return {{"basis", "real, orthonormal"},
-          {"condon_shortley_phase", false},
-          {"index", "l(l+1)+m"},
-          {"polynomials",
-           ".282095, .488603 y, .488603 z, .488603 x, 1.092548 xy, 1.092548 yz, .315392(3z^2-1), "
-           "1.092548 xz, .546274(x^2-y^2), ..."},
-          {"frame", "right-handed, +Y up, -Z forward, directions toward the light"},
-          {"quantity", "radiance, nothing folded in"},
-          {"color", "linear Rec. 709"}};
+ordered_json make_convention() {
+  return {{"basis", convention::kBasis}, {"condon_shortley_phase", convention::kCondonShortleyPhase},
+          {"index", convention::kIndex}, {"polynomials", convention::kPolynomials},
+          {"frame", convention::kFrame}, {"quantity", "radiance, nothing folded in"},
+          {"color", convention::kColor}};
 }
 
 // Three finite numbers.
@@ -61,7 +57,7 @@ CoefficientFile parse(const std::string& name, const json& root) {
   for (const char* key : {"bands", "convention", "coefficients"})
     if (!root.contains(key)) fail(fmt::format("\"{}\" is missing", key), "a coefficient file as shlight writes it");
 
-  const ordered_json expected = convention();
+  const ordered_json expected = make_convention();
   if (!root["convention"].is_object()) fail("\"convention\" is no object", expected.dump());
   for (const auto& [key, value] : expected.items())
     if (!root["convention"].contains(key) || root["convention"][key] != json(value))
@@ -94,7 +90,7 @@ CoefficientFile parse(const std::string& name, const json& root) {
 }  // namespace
 
 std::string format_coefficients(const RgbCoefficients& coefficients, const std::optional<Sun>& sun) {
-  ordered_json root = {{"shlight", 1}, {"bands", coefficients.bands()}, {"convention", convention()}};
+  ordered_json root = {{"shlight", 1}, {"bands", coefficients.bands()}, {"convention", make_convention()}};
   if (sun) {
     const auto& [d, e] = *sun;
     root["sun"] = {{"direction", {d.x, d.y, d.z}}, {"irradiance", {e.r, e.g, e.b}}};

@@ -1,93 +1,17 @@
-// The bytes are the scene's fields in their order in ParsedScene and its parts: numbers as the machine has them, a list
-// as its length and its items. Both sides are the same program, so there is no version and no byte order.
+// The bytes are the scene's fields in their order in ParsedScene and its parts. Both sides are the same program, so
+// there is no version and no byte order.
 
 #include <algorithm>
-#include <concepts>
-#include <cstring>
-#include <type_traits>
 
+#include "shlight/core/byte_stream.h"
 #include "shlight/core/error.h"
 #include "shlight/scene/parsed_scene.h"
 
 namespace shlight {
 namespace {
 
-struct Malformed {};
-
-class Writer {
- public:
-  explicit Writer(FencedBytes& bytes) : bytes_(bytes) {}
-
-  template <class T>
-  requires std::is_arithmetic_v<T>
-  void field(const T& value) { bytes_.append(std::as_bytes(std::span(&value, 1))); }
-  // Of items without pointers: all at once.
-  template <class T>
-  requires std::is_trivially_copyable_v<T>
-  void list(const std::vector<T>& items) {
-    field(std::uint64_t{items.size()});
-    bytes_.append(std::as_bytes(std::span(items)));
-  }
-  void text(const std::string& text) {
-    field(std::uint64_t{text.size()});
-    bytes_.append(std::as_bytes(std::span(text)));
-  }
-  template <class T, class EachItem>
-  void list(const std::vector<T>& items, EachItem&& each) {
-    field(std::uint64_t{items.size()});
-    for (const T& item : items) each(item);
-  }
-
- private:
-  FencedBytes& bytes_;
-};
-
-// The same verbs the other way round; throws Malformed where the bytes end too early.
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) : left_(bytes) {}
-
-  template <class T>
-  requires std::is_arithmetic_v<T>
-  void field(T& value) { std::memcpy(&value, take(sizeof(T)).data(), sizeof(T)); }
-  template <class T>
-  requires std::is_trivially_copyable_v<T>
-  void list(std::vector<T>& items) {
-    items.resize(count(sizeof(T)));
-    const auto bytes = take(items.size() * sizeof(T));
-    if (!bytes.empty()) std::memcpy(items.data(), bytes.data(), bytes.size());
-  }
-  void text(std::string& text) {
-    const auto bytes = take(count(1));
-    text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  }
-  template <class T, class EachItem>
-  void list(std::vector<T>& items, EachItem&& each) {
-    // One by one, so that a false length ends with the bytes and not with the memory.
-    const std::size_t size = count(1);
-    for (std::size_t i = 0; i < size; ++i) each(items.emplace_back());
-  }
-  bool at_end() const { return left_.empty(); }
-
- private:
-  // A length of items of `item_bytes` bytes at least, all of which must be there.
-  std::size_t count(std::size_t item_bytes) {
-    std::uint64_t count = 0;
-    field(count);
-    if (count > left_.size() / item_bytes) throw Malformed{};
-    return count;
-  }
-  std::span<const std::byte> take(std::size_t size) {
-    if (size > left_.size()) throw Malformed{};
-    const auto taken = left_.first(size);
-    left_ = left_.subspan(size);
-    return taken;
-  }
-
-  std::span<const std::byte> left_;
-};
-
-// The one description of the layout, for both directions: `Io` is Writer with const things, or Reader.
+// The one description of the layout, for both directions: `Io` is ByteWriter with const things, or
+// ByteReader.
 template <class Io, class SceneType>
 void pass_scene(Io& io, SceneType& scene) {
   io.list(scene.meshes, [&](auto& mesh) {
@@ -114,7 +38,7 @@ void pass_scene(Io& io, SceneType& scene) {
     io.field(glossy);
     io.field(gloss.metallic);
     io.field(gloss.roughness);
-    if constexpr (std::same_as<Io, Reader>) {
+    if constexpr (Io::kIsReader) {
       if (textured) material.texture = texture;
       if (glossy) material.gloss = gloss;
     }
@@ -155,17 +79,17 @@ bool is_valid(const ParsedScene& scene) {
 }  // namespace
 
 void write_parsed_scene(const ParsedScene& scene, FencedBytes& bytes) {
-  Writer writer(bytes);
+  ByteWriter writer(bytes);
   pass_scene(writer, scene);
 }
 
 ParsedScene read_parsed_scene(std::span<const std::byte> bytes, std::string_view subject, std::string_view accepted) {
   try {
     ParsedScene scene;
-    Reader reader(bytes);
+    ByteReader reader(bytes);
     pass_scene(reader, scene);
     if (reader.at_end() && is_valid(scene)) return scene;
-  } catch (const Malformed&) {
+  } catch (const ByteReader::Malformed&) {
   }
   throw Error(subject, "is malformed (it refers to what it does not hold)", accepted);
 }

@@ -10,7 +10,7 @@ namespace shlight {
 struct BakeState {
   std::uint64_t hash = 0;                         // hash_bake of what is baked
   double density = 0;                             // of the adaptive plan, 0 while it is not chosen or not wanted
-  double estimated_error = 0;                     // with that density
+  double estimated_error = 0;                     // known when pass 0 is done
   std::uint64_t pass = 0;                         // 0: occlusion; b: bounce b
   std::uint64_t batches_done = 0;                 // of this pass
   std::uint64_t rays = 0;                         // of all passes

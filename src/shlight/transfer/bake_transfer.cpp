@@ -93,7 +93,7 @@ class Baker {
     while (state_.pass < num_passes()) {
       if (state_.pass == 0) {
         run_pass([&](std::size_t b) { return shade(b); });
-        if (params_.samples > 0) estimate_error();
+        estimate_error();
         if (bounces()) start_bounces();
       } else {
         run_bounce();
@@ -125,7 +125,6 @@ class Baker {
       const DensityChoice choice =
           choose_density(*tracer_, sites_, bands(), double{params_.error}, params_.seed, params_.threads);
       state_.density = choice.density;
-      state_.estimated_error = choice.estimated_error;
       state_.rays = rays_here_ = choice.rays;
     }
     batch_size_ = params_.samples == 0 ? kAdaptiveBatch : fixed_batch_size(static_cast<std::size_t>(params_.samples));
@@ -174,9 +173,10 @@ class Baker {
     });
   }
 
-  // Of a fixed number of samples: some sites once more, with others.
+  // Some sites once more, with other samples.
   void estimate_error() {
-    const std::vector<SiteRange> groups = pilot_groups(sites_);
+    constexpr std::size_t kPilotSites = 1024;
+    const std::vector<SiteRange> groups = pilot_groups(sites_, kPilotSites);
     const std::size_t n = num_values();
     std::vector<double> baked;
     for (const auto& [begin, end] : groups) {

@@ -10,6 +10,7 @@
 #include "shlight/core/error.h"
 #include "shlight/core/file.h"
 #include "shlight/sh/coefficients.h"
+#include "shlight/sh/convention_text.h"
 #include "shlight/transfer/glb.h"
 
 namespace shlight {
@@ -67,17 +68,15 @@ int num_pca_attributes(int components) {
 }
 
 nlohmann::ordered_json baked_convention() {
-  return {{"basis", "real, orthonormal"},
-          {"condon_shortley_phase", false},
-          {"index", "l(l+1)+m"},
-          {"polynomials",
-           ".282095, .488603 y, .488603 z, .488603 x, 1.092548 xy, 1.092548 yz, .315392(3z^2-1), "
-           "1.092548 xz, .546274(x^2-y^2), ..."},
-          {"frame", "right-handed, +Y up, -Z forward, directions toward the light, of the world and not of the node"},
+  return {{"basis", convention::kBasis},
+          {"condon_shortley_phase", convention::kCondonShortleyPhase},
+          {"index", convention::kIndex},
+          {"polynomials", convention::kPolynomials},
+          {"frame", fmt::format("{}, of the world and not of the node", convention::kFrame)},
           {"quantity",
            "transfer: radiance of a vertex = base color * sum of light's coefficients of radiance * these; "
            "1/pi is in it, the base color is not"},
-          {"color", "linear Rec. 709"}};
+          {"color", convention::kColor}};
 }
 
 namespace {

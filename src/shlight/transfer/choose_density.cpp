@@ -1,5 +1,6 @@
 #include "shlight/transfer/choose_density.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "shlight/transfer/pilot.h"
@@ -15,12 +16,15 @@ constexpr double kMaxDensity = kMaxTransferSamples / kCells / 2;
 
 DensityChoice choose_density(const Tracer& tracer, const Sites& sites, int bands, double error, std::uint64_t seed,
                              int threads) {
-  // The rule for the error is trusted over a factor of four in density.
-  constexpr double kTrusted = 4;
+  // The rule for the error is trusted over so small a factor in density, and the steps to there are no larger than
+  // four.
+  constexpr double kTrusted = 1.5, kStep = 4;
+  constexpr int kMaxRounds = 5;
+  constexpr std::size_t kPilotSites = 512;
   DensityChoice choice;
   double tried = 4;
-  const std::vector<SiteRange> groups = pilot_groups(sites);
-  for (;;) {
+  const std::vector<SiteRange> groups = pilot_groups(sites, kPilotSites);
+  for (int round = 1;; ++round) {
     const SamplePlan plan = make_adaptive_plan(bands, tried, seed, threads);
     // Other sets and other turns than the bake's own.
     const PilotTransfer first = trace_pilot(tracer, sites, groups, plan, ~seed + 1, threads),
@@ -33,13 +37,9 @@ DensityChoice choose_density(const Tracer& tracer, const Sites& sites, int bands
       const double middle = (low + high) / 2;
       (error_tried * error_ratio(middle / tried) > error ? low : high) = middle;
     }
-    if (high > kTrusted * tried) {
-      tried *= kTrusted;
-      continue;
-    }
     choice.density = high;
-    choice.estimated_error = error_tried * error_ratio(high / tried);
-    return choice;
+    if (round == kMaxRounds || std::max(high / tried, tried / high) <= kTrusted) return choice;
+    tried = std::clamp(high, tried / kStep, tried * kStep);
   }
 }
 

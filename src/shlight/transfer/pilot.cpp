@@ -11,9 +11,9 @@
 
 namespace shlight {
 
-std::vector<SiteRange> pilot_groups(const Sites& sites) {
+std::vector<SiteRange> pilot_groups(const Sites& sites, std::size_t most) {
   constexpr std::size_t kGroupSize = 8;
-  const std::size_t count = std::clamp(sites.size() / (16 * kGroupSize), std::size_t{8}, std::size_t{128});
+  const std::size_t count = std::clamp(sites.size() / (16 * kGroupSize), std::size_t{8}, most / kGroupSize);
   std::vector<SiteRange> groups(count);
   for (std::size_t g = 0; g < count; ++g) {
     // Small scenes have fewer sites than pilots: each is taken once.

@@ -12,13 +12,13 @@ namespace shlight {
 
 // A few sites, spread over the scene, of which shadowed transfer is traced once more with other samples: the difference
 // of two independent results is √2 times the error of each, whatever the error comes from. One site in 16, and not more
-// than a thousand in all, which give the error to about a fifteenth.
+// than `most` in all: a thousand give the error to about a fifteenth, half of them to a tenth.
 //
 // They come in small groups of neighbours, since rays of neighbours are cheaper.
 struct SiteRange {
   std::size_t begin = 0, end = 0;
 };
-std::vector<SiteRange> pilot_groups(const Sites& sites);
+std::vector<SiteRange> pilot_groups(const Sites& sites, std::size_t most);
 
 struct PilotTransfer {
   std::vector<double> shadowed;  // bands² of each site of each group

@@ -5,16 +5,10 @@
 #include <cmath>
 
 #include "shlight/scene/builtin_scene.h"
+#include "shlight/transfer/transfer_test_util.h"
 
 namespace shlight {
 namespace {
-
-BakeParams cosine_params(int bands) {
-  BakeParams params;
-  params.kind = TransferKind::kCosine;
-  params.bands = bands;
-  return params;
-}
 
 TEST(Quantise, EndsAndZeroAreExactAndTheRestIsWithinHalfAStep) {
   for (const int bits : {8, 16}) {
@@ -33,7 +27,7 @@ TEST(Quantise, EndsAndZeroAreExactAndTheRestIsWithinHalfAStep) {
 }
 
 TEST(Quantise, TransferComesBackNearAndNoFurtherTheSecondTime) {
-  const Transfer transfer = bake_transfer(make_sphere_scene(8), cosine_params(4));
+  const Transfer transfer = bake_transfer(make_sphere_scene(8), make_cosine_params(4));
   for (const int bits : {8, 16, 32}) {
     const Transfer once = quantise_transfer(transfer, bits);
     EXPECT_EQ(quantise_transfer(once, bits).coefficients, once.coefficients) << bits;
@@ -46,7 +40,7 @@ TEST(Quantise, TransferComesBackNearAndNoFurtherTheSecondTime) {
 
 // One coefficient 1 % too large under a light of that coefficient alone is 1 % of error, in whatever unit.
 TEST(Quantise, ShadingErrorIsRelative) {
-  const Transfer a = bake_transfer(make_sphere_scene(4), cosine_params(2));
+  const Transfer a = bake_transfer(make_sphere_scene(4), make_cosine_params(2));
   Transfer b = a;
   for (std::size_t k = 2; k < b.coefficients.size(); k += 4) b.coefficients[k] *= 1.01f;
   for (const double unit : {1.0, 1e6}) {

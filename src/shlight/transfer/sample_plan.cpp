@@ -59,7 +59,7 @@ std::vector<Lanes> integrate_cells(int bands, int threads) {
 
 std::vector<Lanes> make_cell_corrections(const SamplePlan& plan, int threads) {
   const HemisphereSamples& samples = plan.samples;
-  const std::size_t row_size = samples.row_size, levels = plan.samples_per_cell.size();
+  const std::size_t row_size = samples.row_size, levels = kCellLevels;
   constexpr std::size_t kWidth = std::size(Lanes{}.values);
   std::vector<Lanes> rows(samples.num_sets * levels * kCells * row_size);
   parallel_for(samples.num_sets * levels, threads, [&](std::size_t task) {
@@ -113,8 +113,11 @@ SamplePlan make_adaptive_plan(int bands, double density, std::uint64_t seed, int
   // Squares of errors add up over sites: between the densities' own they mix in proportion.
   const auto square = [](double d) { return std::pow(error_ratio(d), 2); };
   plan.dense_share = (square(low) - square(density)) / (square(low) - square(high));
-  // An eighth everywhere is enough to find edges at all densities.
-  plan.samples_per_cell = {std::max(1u, low / 8), low, high};
+  // An eighth everywhere, and a quarter of the hardly open, are enough to find edges at all densities.
+  std::size_t level = 0;
+  for (const std::uint32_t d : {low, high})
+    for (const std::uint32_t count : {std::max(1u, d / 8), std::max(std::min(2u, d), d / 4), d})
+      plan.samples_per_cell[level++] = count;
   const std::size_t set_size = kCells * (plan.dense_share > 0 ? high : low);
   plan.samples = make_hemisphere_samples(bands, set_size, true, num_sets(bands, set_size), seed, threads);
   plan.cell_integrals = integrate_cells(bands, threads);
@@ -127,7 +130,7 @@ SiteSamples make_site_samples(const SamplePlan& plan, std::size_t site, Vec3f no
   SiteSamples samples;
   samples.frame = make_local_frame(vec_cast<double>(normal), 2 * std::numbers::pi * unit_interval(random));
   samples.set = random % plan.samples.num_sets;
-  samples.edge_level = unit_interval(other) < plan.dense_share ? 2 : 1;
+  samples.first_level = unit_interval(other) < plan.dense_share ? kSiteLevels : 0;
   return samples;
 }
 
@@ -141,7 +144,7 @@ std::size_t num_rays(const SamplePlan& plan, const SiteOcclusion& occlusion) {
 OccludedSamples occluded_samples(const SamplePlan& plan, const SiteOcclusion& occlusion) {
   OccludedSamples result;
   const float weight = 1 / static_cast<float>(plan.samples.set_size);
-  std::array<float, 3> level_weights = {};
+  std::array<float, kCellLevels> level_weights = {};
   for (std::size_t level = 0; level < level_weights.size(); ++level)
     level_weights[level] = 1 / static_cast<float>(kCells * plan.samples_per_cell[level]);
   for_each_sample(plan, occlusion, [&](std::size_t j) {
@@ -172,7 +175,7 @@ bool sum_occluded(const SamplePlan& plan, const SiteSamples& site, const SiteOcc
   for (std::size_t c = 0; c < kCells; ++c) {
     if (counts[c] == 0) continue;
     OccludedSamples& list = counts[c] == count_of_all(c) ? whole : corrections;
-    const std::size_t row = (site.set * 3 + occlusion.levels[c]) * kCells + c;
+    const std::size_t row = (site.set * kCellLevels + occlusion.levels[c]) * kCells + c;
     list.samples.push_back(static_cast<std::uint32_t>(&list == &whole ? c : row));
     list.weights.push_back(static_cast<float>(counts[c]) / static_cast<float>(count_of_all(c)));
   }
@@ -191,31 +194,33 @@ bool sum_occluded(const SamplePlan& plan, const SiteSamples& site, const SiteOcc
 }
 
 void pack_occlusion(const SamplePlan& plan, const SiteOcclusion& occlusion, std::vector<std::uint8_t>& bytes) {
-  std::uint8_t byte = 0;
+  unsigned pending = 0;
   int used = 0;
   const auto put = [&](unsigned value, int bits) {
-    byte = static_cast<std::uint8_t>(byte | value << used);
+    pending |= value << used;
     used += bits;
     if (used < 8) return;
-    bytes.push_back(byte);
-    byte = 0, used = 0;
+    bytes.push_back(static_cast<std::uint8_t>(pending));
+    pending >>= 8, used -= 8;
   };
   if (plan.is_adaptive)
-    for (const std::uint8_t level : occlusion.levels) put(level, 2);
+    for (const std::uint8_t level : occlusion.levels) put(level, 3);
   for_each_sample(plan, occlusion, [&](std::size_t j) { put(occlusion.is_occluded[j], 1); });
-  if (used > 0) bytes.push_back(byte);
+  if (used > 0) bytes.push_back(static_cast<std::uint8_t>(pending));
 }
 
 void unpack_occlusion(const SamplePlan& plan, std::span<const std::uint8_t>& bytes, SiteOcclusion& occlusion) {
   occlusion.is_occluded.assign(plan.samples.set_size, 0);
   std::size_t next = 0;
   const auto get = [&](unsigned bits) {
-    const unsigned value = bytes[next / 8] >> (next % 8) & ((1u << bits) - 1);
+    // They may reach into the next byte.
+    const unsigned more = next / 8 + 1 < bytes.size() ? bytes[next / 8 + 1] : 0u;
+    const unsigned value = (bytes[next / 8] | more << 8) >> (next % 8) & ((1u << bits) - 1);
     next += bits;
     return static_cast<std::uint8_t>(value);
   };
   if (plan.is_adaptive)
-    for (std::uint8_t& level : occlusion.levels) level = get(2);
+    for (std::uint8_t& level : occlusion.levels) level = get(3);
   for_each_sample(plan, occlusion, [&](std::size_t j) { occlusion.is_occluded[j] = get(1); });
   bytes = bytes.subspan((next + 7) / 8);
 }

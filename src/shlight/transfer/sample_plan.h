@@ -11,6 +11,11 @@
 
 namespace shlight {
 
+// How densely a cell of the hemisphere is sampled; see SamplePlan. A site takes the first three levels, or the last
+// three, which are twice as dense each.
+enum CellLevel : std::uint8_t { kBaseLevel, kSecondLookLevel, kEdgeLevel, kSiteLevels };
+inline constexpr std::size_t kCellLevels = 2 * kSiteLevels;
+
 // Which directions every site asks about: either a fixed number, or as many as the site needs.
 //
 // What makes visibility hard to integrate is its edges: a cell of the hemisphere that is all open or all occluded is
@@ -19,20 +24,25 @@ namespace shlight {
 // edges, and a site gets rays as it has edges:
 //
 //   1. a base density everywhere; if nothing is occluded, that is all;
-//   2. the full density in cells among which, their eight neighbours included, some is open and some occluded. Beyond
-//      the horizon all counts as occluded, since occluders rise from it.
+//   2. a second look everywhere, of sites of which much is occluded but not all: what little light such a site gets
+//      comes through openings, which are often smaller than a cell. Found by nobody, they would make the site too dark,
+//      in every bake alike, so that no comparison of two would tell;
+//   3. the full density in cells among which, their eight neighbours included, some is open and some occluded. Beyond
+//      the horizon all counts as occluded, since occluders rise from it;
+//   4. the same again, as long as the rays of the last turn find more such cells: along an edge from where it was
+//      found.
 //
 // Whether a cell with an edge is found depends on its neighbours too, not just on its own rays, which keeps the result
-// free of bias as far as can be told. On the bunny this needs less than half the rays that a fixed number needs.
+// nearly free of bias.
 struct SamplePlan {
   HemisphereSamples samples;
   bool is_adaptive = false;
-  // The rest is for adaptive plans only. Levels of a cell: base, and two densities for edges. Powers of two, for which
-  // the samples are best; a share of the sites takes the higher one, which makes densities between the two.
-  std::array<std::uint32_t, 3> samples_per_cell = {};
+  // The rest is for adaptive plans only. Of cells at each level: powers of two, for which the samples are best. A share
+  // of the sites takes the higher levels, which makes densities between the two.
+  std::array<std::uint32_t, kCellLevels> samples_per_cell = {};
   double dense_share = 0;
   // ∫ Y_i over each cell, with the density of the samples; and by how much that is more than what a set's samples of a
-  // level make of it: row (set · 3 + level) · kCells + cell.
+  // level make of it: row (set · kCellLevels + level) · kCells + cell.
   std::vector<Lanes> cell_integrals, cell_corrections;
 };
 
@@ -48,7 +58,7 @@ double error_ratio(double density_ratio);
 struct SiteSamples {
   LocalFrame frame;
   std::size_t set = 0;
-  std::uint8_t edge_level = 1;  // of cells near an edge, where the plan is adaptive
+  std::uint8_t first_level = 0;  // 0 or kSiteLevels
 };
 SiteSamples make_site_samples(const SamplePlan& plan, std::size_t site, Vec3f normal, std::uint64_t seed);
 
@@ -72,7 +82,7 @@ OccludedSamples occluded_samples(const SamplePlan& plan, const SiteOcclusion& oc
 bool sum_occluded(const SamplePlan& plan, const SiteSamples& site, const SiteOcclusion& occlusion,
                   std::span<double> coefficients);
 
-// A bit for each ray, and a quarter of a byte for each cell where the plan is adaptive.
+// A bit for each ray, and three for each cell where the plan is adaptive.
 void pack_occlusion(const SamplePlan& plan, const SiteOcclusion& occlusion, std::vector<std::uint8_t>& bytes);
 // Reads what pack_occlusion appended, and takes it off the front of `bytes`.
 void unpack_occlusion(const SamplePlan& plan, std::span<const std::uint8_t>& bytes, SiteOcclusion& occlusion);

@@ -17,7 +17,8 @@ SiteOcclusion make_random_occlusion(const SamplePlan& plan, std::uint64_t seed) 
   SiteOcclusion occlusion;
   occlusion.is_occluded.resize(plan.samples.set_size);
   for (std::size_t j = 0; j < occlusion.is_occluded.size(); ++j) occlusion.is_occluded[j] = mix_bits(seed + j) & 1;
-  for (std::size_t c = 0; c < kCells; ++c) occlusion.levels[c] = static_cast<std::uint8_t>(mix_bits(~seed + c) % 3);
+  for (std::size_t c = 0; c < kCells; ++c)
+    occlusion.levels[c] = static_cast<std::uint8_t>(mix_bits(~seed + c) % kCellLevels);
   return occlusion;
 }
 
@@ -74,7 +75,7 @@ TEST(SamplePlan, AllOccludedMissesTheCosineTransfer) {
 TEST(SamplePlan, HalfOccludedMissesHalfWhateverTheLevels) {
   const SamplePlan plan = make_adaptive_plan(2, 6, 1, 0);
   double mean = 0;
-  constexpr std::size_t kSites = 64;
+  constexpr std::size_t kSites = 1024;
   for (std::size_t site = 0; site < kSites; ++site) {
     const SiteSamples samples = make_site_samples(plan, site, {0, 0, 1}, 1);
     SiteOcclusion occlusion = make_random_occlusion(plan, site);
@@ -86,17 +87,17 @@ TEST(SamplePlan, HalfOccludedMissesHalfWhateverTheLevels) {
   }
   // The disc beyond x = 0.1.
   const double expected = (std::acos(0.1) - 0.1 * std::sqrt(1 - 0.01)) / std::numbers::pi;
-  EXPECT_NEAR(mean, expected, 1e-3);
+  EXPECT_NEAR(mean, expected, 1e-3);  // five standard deviations
 }
 
 TEST(SamplePlan, DensitiesBetweenPowersOfTwoAreMixed) {
   EXPECT_EQ(make_adaptive_plan(2, 8, 1, 0).dense_share, 0);
   const SamplePlan plan = make_adaptive_plan(2, 11, 1, 0);
-  EXPECT_EQ(plan.samples_per_cell, (std::array<std::uint32_t, 3>{1, 8, 16}));
+  EXPECT_EQ(plan.samples_per_cell, (std::array<std::uint32_t, kCellLevels>{1, 2, 8, 2, 4, 16}));
   const double share = plan.dense_share;
   EXPECT_NEAR((1 - share) + share * std::pow(error_ratio(2), 2), std::pow(error_ratio(11.0 / 8), 2), 1e-12);
   std::size_t dense = 0;
-  for (std::size_t site = 0; site < 4000; ++site) dense += make_site_samples(plan, site, {0, 0, 1}, 1).edge_level == 2;
+  for (std::size_t site = 0; site < 4000; ++site) dense += make_site_samples(plan, site, {0, 0, 1}, 1).first_level > 0;
   EXPECT_NEAR(static_cast<double>(dense) / 4000, share, 0.04);  // five standard deviations
 }
 

@@ -7,8 +7,9 @@
 namespace shlight {
 namespace {
 
-// Two megabytes of rays: long enough that rays of a stream go in similar directions, and still in the second cache.
-constexpr std::size_t kStreamRays = 1 << 15;
+// Half a megabyte of rays and what makes them: long enough that rays of a stream go in similar directions, and in the
+// second cache even where others use it too.
+constexpr std::size_t kStreamRays = 1 << 13;
 
 // The rays of `samples[k]` for each site k of a batch.
 void trace_samples(const Tracer& tracer, const Sites& sites, std::size_t begin, const HemisphereSamples& samples,
@@ -44,38 +45,48 @@ void trace_samples(const Tracer& tracer, const Sites& sites, std::size_t begin, 
   if (rays > 0) flush();
 }
 
-// What the base samples found in a cell: nothing occluded, something, all.
-struct CellState {
-  bool has_open = false, has_occluded = false;
-};
+using CellMask = std::array<bool, kCells>;
 
-// The samples that cells near edges still need; raises their levels.
-void add_edge_samples(const SamplePlan& plan, std::uint8_t edge_level, SiteOcclusion& occlusion,
-                      std::vector<std::uint32_t>& samples) {
-  const std::uint32_t base = plan.samples_per_cell[0], count = plan.samples_per_cell[edge_level];
-  std::array<CellState, kCells> states;
-  for (std::uint32_t j = 0; j < base * kCells; ++j) {
-    CellState& state = states[j % kCells];
-    (occlusion.is_occluded[j] ? state.has_occluded : state.has_open) = true;
+// Whether so many rays tell that much of a site is occluded, but not all: light comes through openings.
+bool is_hardly_open(std::size_t occluded, std::size_t rays) {
+  constexpr double kMuch = 0.25;
+  return static_cast<double>(occluded) > kMuch * static_cast<double>(rays) && occluded < rays;
+}
+
+// Cells among which, their neighbours included, some ray is open and some occluded.
+CellMask find_edge_cells(const SamplePlan& plan, const SiteOcclusion& occlusion) {
+  enum : std::uint8_t { kOpen = 1, kOccluded = 2, kBoth = 3 };
+  constexpr std::size_t kPadded = kCellSide + 2;
+  // With what is beyond the horizon around them.
+  std::array<std::uint8_t, kPadded * kPadded> found;
+  found.fill(kOccluded);
+  for (std::size_t c = 0; c < kCells; ++c) {
+    std::uint8_t all = 0;
+    for (std::size_t k = 0; k < plan.samples_per_cell[occlusion.levels[c]]; ++k)
+      all |= occlusion.is_occluded[k * kCells + c] ? kOccluded : kOpen;
+    found[(c / kCellSide + 1) * kPadded + c % kCellSide + 1] = all;
   }
-  constexpr int kSide = static_cast<int>(kCellSide);
-  const auto is_near_edge = [&](int x, int y) {
-    CellState all;
-    for (int v = y - 1; v <= y + 1; ++v)
-      for (int u = x - 1; u <= x + 1; ++u) {
-        const bool is_above_horizon = u >= 0 && u < kSide && v >= 0 && v < kSide;
-        const CellState state =
-            is_above_horizon ? states[static_cast<std::size_t>(v * kSide + u)] : CellState{false, true};
-        all.has_open |= state.has_open, all.has_occluded |= state.has_occluded;
-      }
-    return all.has_open && all.has_occluded;
-  };
-  for (std::size_t c = 0; c < kCells; ++c)
-    if (is_near_edge(static_cast<int>(c % kCellSide), static_cast<int>(c / kCellSide)))
-      occlusion.levels[c] = edge_level;
-  for (std::uint32_t k = base; k < count; ++k)
-    for (std::uint32_t c = 0; c < kCells; ++c)
-      if (occlusion.levels[c] == edge_level) samples.push_back(static_cast<std::uint32_t>(k * kCells + c));
+  CellMask edges = {};
+  for (std::size_t c = 0; c < kCells; ++c) {
+    const std::uint8_t* corner = found.data() + c / kCellSide * kPadded + c % kCellSide;
+    std::uint8_t all = 0;
+    for (std::size_t v = 0; v < 3; ++v)
+      for (std::size_t u = 0; u < 3; ++u) all |= corner[v * kPadded + u];
+    edges[c] = all == kBoth;
+  }
+  return edges;
+}
+
+// Raises the cells to a level; appends the samples that they need for it.
+void raise_levels(const SamplePlan& plan, const CellMask& cells, std::uint8_t level, SiteOcclusion& occlusion,
+                  std::vector<std::uint32_t>& samples) {
+  const std::uint32_t count = plan.samples_per_cell[level];
+  for (std::size_t c = 0; c < kCells; ++c) {
+    if (!cells[c] || occlusion.levels[c] == level) continue;
+    for (std::uint32_t k = plan.samples_per_cell[occlusion.levels[c]]; k < count; ++k)
+      samples.push_back(static_cast<std::uint32_t>(k * kCells + c));
+    occlusion.levels[c] = level;
+  }
 }
 
 }  // namespace
@@ -92,24 +103,45 @@ void trace_occlusion(const Tracer& tracer, const Sites& sites, std::size_t begin
   for (std::size_t k = 0; k < count; ++k) {
     w.site_samples[k] = make_site_samples(plan, begin + k, sites.normals[begin + k], seed);
     w.occlusion[k].is_occluded.resize(plan.samples.set_size);
-    w.occlusion[k].levels = {};
+    w.occlusion[k].levels.fill(w.site_samples[k].first_level);
   }
 
-  const std::size_t num_first = plan.is_adaptive ? kCells * plan.samples_per_cell[0] : plan.samples.set_size;
-  std::vector<std::uint32_t> first(num_first);
-  std::iota(first.begin(), first.end(), 0u);
-  std::vector<std::span<const std::uint32_t>> samples(count, first);
+  std::vector<std::uint32_t> numbers(plan.samples.set_size);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  std::vector<std::span<const std::uint32_t>> samples(count, numbers);
+  if (plan.is_adaptive)
+    for (std::size_t k = 0; k < count; ++k)
+      samples[k] = samples[k].first(kCells * plan.samples_per_cell[w.site_samples[k].first_level]);
   trace_samples(tracer, sites, begin, plan.samples, samples, w);
   if (!plan.is_adaptive) return;
 
   std::vector<std::vector<std::uint32_t>> added(count);
+  const auto raise = [&](std::size_t k, const CellMask& cells, CellLevel level) {
+    raise_levels(plan, cells, static_cast<std::uint8_t>(w.site_samples[k].first_level + level), w.occlusion[k],
+                 added[k]);
+  };
+  const auto trace_added = [&] {
+    std::ranges::copy(added, samples.begin());
+    trace_samples(tracer, sites, begin, plan.samples, samples, w);
+    for (std::vector<std::uint32_t>& list : added) list.clear();
+  };
+  // Of sites of which nothing is occluded, all is known.
+  std::vector<std::size_t> left;
+  CellMask all;
+  all.fill(true);
   for (std::size_t k = 0; k < count; ++k) {
-    const auto found = std::span(w.occlusion[k].is_occluded).first(num_first);
-    if (std::ranges::find(found, 1) != found.end())
-      add_edge_samples(plan, w.site_samples[k].edge_level, w.occlusion[k], added[k]);
-    samples[k] = added[k];
+    const std::size_t rays = samples[k].size();
+    const auto occluded =
+        static_cast<std::size_t>(std::ranges::count(std::span(w.occlusion[k].is_occluded).first(rays), 1));
+    if (occluded > 0) left.push_back(k);
+    if (is_hardly_open(occluded, rays)) raise(k, all, kSecondLookLevel);
   }
-  trace_samples(tracer, sites, begin, plan.samples, samples, w);
+  trace_added();
+  while (!left.empty()) {
+    for (const std::size_t k : left) raise(k, find_edge_cells(plan, w.occlusion[k]), kEdgeLevel);
+    std::erase_if(left, [&](std::size_t k) { return added[k].empty(); });
+    trace_added();
+  }
 }
 
 }  // namespace shlight

@@ -33,6 +33,23 @@ Scene make_small_scene() {
   return scene;
 }
 
+// A room whose roof is of slats: light comes in through gaps of 3 degrees at most, half as wide as a cell of the
+// adaptive plan. All that faces outward is black from where the sites are.
+Scene make_slatted_room() {
+  constexpr int kSlats = 16;
+  constexpr float kHalf = 4, kHeight = 2, kStride = 2 * kHalf / kSlats, kGap = 0.1f;
+  const Vec3f x = {2 * kHalf, 0, 0}, y = {0, kHeight, 0}, z = {0, 0, 2 * kHalf}, corner = {-kHalf, 0, -kHalf};
+  Mesh room = make_sheet(corner, z, x, 16);
+  for (const auto& [from, a, b] :
+       {std::array{corner, x, y}, std::array{corner + z, y, x}, std::array{corner, y, z}, std::array{corner + x, z, y}})
+    append(room, make_sheet(from, a, b, 4));
+  for (int k = 0; k < kSlats; ++k) {
+    const Vec3f at = corner + y + Vec3f{kStride * static_cast<float>(k), 0, 0};
+    append(room, make_sheet(at, {kStride - kGap, 0, 0}, z, 1));
+  }
+  return make_test_scene({room});
+}
+
 TEST(Shadowed, ConvexShapesHaveTheirCosineTransfer) {
   const Scene scene = make_test_scene({make_sphere(1, 40), make_rounded_box({1, 2, 3}, 0.1f, 3, 0.3f)});
   Scene apart = scene;
@@ -148,6 +165,25 @@ TEST(Shadowed, AutomaticSamplesReachTheWantedErrorAndSayHowWell) {
     const Transfer even = bake_transfer(scene, make_params(TransferKind::kShadowed, average));
     EXPECT_LT(error, relative_difference(even, truth)) << average << " rays a vertex";
   }
+}
+
+// What every bake with automatic samples misses is in no estimate that compares two of them: it must be small.
+TEST(Shadowed, AutomaticSamplesFindSmallOpenings) {
+  const Scene scene = make_slatted_room();
+  const Transfer truth = bake_transfer(scene, make_params(TransferKind::kShadowed, 16384));
+  BakeParams params = make_params(TransferKind::kShadowed, 0);
+  params.seed = 2;
+  params.error = 0.06f;
+  const Transfer transfer = bake_transfer(scene, params);
+  double open = 0, open_truth = 0;
+  for (std::size_t v = 0; v < truth.num_vertices(); ++v) {
+    open += double{transfer.ambient_occlusion[v]};
+    open_truth += double{truth.ambient_occlusion[v]};
+  }
+  EXPECT_LT(open_truth, 0.2 * static_cast<double>(truth.num_vertices())) << "hardly open";
+  EXPECT_NEAR(open / open_truth, 1, 0.01);
+  const double error = relative_difference(transfer, truth);
+  EXPECT_NEAR(transfer.estimated_error, error, 0.2 * error);
 }
 
 }  // namespace

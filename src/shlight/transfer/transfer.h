@@ -49,7 +49,7 @@ struct BakeParams {
   TransferMethod method = TransferMethod::kBest;
   int bands = 5;           // 1 … kMaxTransferBands
   int samples = 0;         // rays a vertex, 1 … kMaxTransferSamples; 0: as many as each vertex needs for `error`
-  float error = 0.0037f;   // wanted where samples is 0: root mean square over all vertices of the coefficients' error,
+  float error = 0.0038f;   // wanted where samples is 0: root mean square over all vertices of the coefficients' error,
                            // relative to the coefficients' own; 1e-5 … 1, as far as kMaxTransferSamples can
   int bounces = 3;         // of light between surfaces, kInterreflected only, 0 … 64
   std::uint64_t seed = 1;  // other seeds give other errors of the same size
@@ -92,7 +92,8 @@ struct Transfer {
   double estimated_error = 0;  // of shadowed transfer, or the shadowed part of interreflected: root mean square over
                                // all vertices and coefficients, relative to the coefficients' own. Measured on some of
                                // the vertices with other samples, good to about a fifth; 0 for cosine transfer. Where
-                               // samples is 0, without openings that are missed with any (docs/transfer.md)
+                               // samples is 0, without openings that are missed with any: up to a tenth of it
+                               // (docs/transfer.md)
 
   std::size_t num_vertices() const { return ambient_occlusion.size(); }
 };

@@ -10,11 +10,10 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
-#include <limits>
 #include <mutex>
 #include <string>
 
+#include "shlight/core/peak_memory.h"
 #include "shlight/scene/load_scene.h"
 #include "shlight/scene/shapes.h"
 #include "shlight/sh/floor_bench.h"
@@ -251,25 +250,14 @@ BENCHMARK(bake_more_triangles)
     ->Unit(benchmark::kMillisecond)
     ->Complexity();
 
-// The most memory that this process has held since the last call, in bytes, of Linux: its own high-water mark. 0 where
-// there is none to read.
-double take_peak_memory() {
-  double kilobytes = 0;
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmHWM:")) kilobytes = std::strtod(line.c_str() + 6, nullptr);
-  std::ofstream("/proc/self/clear_refs") << 5;
-  return 1024 * kilobytes;
-}
-
 // A scene of a million triangles, on all threads.
 void bake_a_million_triangles(benchmark::State& state) {
   const Scene scene = make_knot(2048, 245);
   BakeParams params = make_params(16, 0);
   params.kind = static_cast<TransferKind>(state.range(0));
-  take_peak_memory();
+  reset_peak_memory();
   for (auto _ : state) benchmark::DoNotOptimize(bake_transfer(scene, params));
-  state.counters["peak_bytes"] = take_peak_memory();
+  state.counters["peak_bytes"] = static_cast<double>(peak_memory());
   state.counters["triangles"] = static_cast<double>(num_triangles(scene));
 }
 BENCHMARK(bake_a_million_triangles)

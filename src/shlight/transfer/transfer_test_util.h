@@ -64,6 +64,13 @@ inline Scene make_test_scene(std::initializer_list<Mesh> meshes, Vec3f reflectan
   return scene;
 }
 
+inline BakeParams make_cosine_params(int bands) {
+  BakeParams params;
+  params.kind = TransferKind::kCosine;
+  params.bands = bands;
+  return params;
+}
+
 // What leaves a white vertex under uniform light of radiance 1, in channel c.
 inline double under_uniform_light(const Transfer& transfer, std::size_t vertex, std::size_t c = 0) {
   const std::size_t n = static_cast<std::size_t>(transfer.bands * transfer.bands);

@@ -1,0 +1,24 @@
+#include "shlight/core/peak_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace shlight {
+namespace {
+
+TEST(PeakMemory, RemembersWhatIsGivenBack) {
+  if (peak_memory() == 0) GTEST_SKIP() << "this system tells none";
+  constexpr std::size_t kBytes = 64 << 20;
+  reset_peak_memory();
+  const std::uint64_t before = peak_memory();
+  // Written to, or the system would not give it; large enough to be given back at once.
+  EXPECT_EQ(std::vector<char>(kBytes, 'x')[before % kBytes], 'x');
+  const std::uint64_t after = peak_memory();
+  // Some of it may come from what the process already held.
+  EXPECT_GT(after, before + kBytes / 2);
+  EXPECT_LT(after, before + 2 * kBytes);
+}
+
+}  // namespace
+}  // namespace shlight
