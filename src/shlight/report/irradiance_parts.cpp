@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "shlight/report/html.h"
+#include "shlight/report/part.h"
+#include "shlight/report/picture.h"
+#include "shlight/transfer/transfer.h"
+#include "shlight/truth/image_error.h"
+
+// Figures 17 to 22: one scene under one light, by one to five bands, beside the truth.
+
+namespace shlight {
+namespace {
+
+constexpr int kMostBands = 5;
+
+// One picture of the group.
+struct Drawn {
+  std::string id, title;
+  Image radiance;  // of the scene alone
+};
+
+// The thesis's classic method: transfer by Monte Carlo, without shadows.
+Transfer bake_classic(const Scene& scene, int samples) {
+  BakeParams params;
+  params.kind = TransferKind::kCosine;
+  params.method = TransferMethod::kMonteCarlo;
+  params.bands = kMostBands;
+  params.samples = samples;
+  return bake_transfer(scene, params);
+}
+
+std::vector<Drawn> draw_group(const Scene& scene, const RenderLight& light, RenderParams params, int samples) {
+  const Transfer transfer = bake_classic(scene, samples);
+  std::vector<Drawn> group;
+  const auto classic = [&](const char* id, const char* title, int bands) {
+    params.bands = bands;
+    group.push_back({id, title, draw_fine(light, params, [&](const RenderLight& l, const RenderParams& p) {
+                       return render_transfer(scene, transfer, l, p);
+                     })});
+  };
+  classic("figure-17", "Figure 17. One band", 1);
+  classic("figure-18", "Figure 18. Two bands", 2);
+  classic("figure-19", "Figure 19. Three bands, classic", 3);
+  params.bands = 3;
+  group.push_back({"figure-20", "Figure 20. Three bands, nine coefficients",
+                   draw_fine(light, params, [&](const RenderLight& l, const RenderParams& p) {
+                     return render_irradiance(scene, l, p);
+                   })});
+  classic("figure-21", "Figure 21. Four bands", 4);
+  classic("figure-22", "Figure 22. Five bands", 5);
+  return group;
+}
+
+void make_figures_17_to_22(ReportSources& sources, PartWriter& out) {
+  const Light& light = sources.light();
+  const Scene& scene = sources.scene(sources.figure_model());
+  RenderParams params;
+  params.width = sources.pick(240, 480), params.height = params.width * 3 / 4;
+  params.camera = {30, 16, 1.15};
+  params.show_background = false;
+  const RenderLight render_light = make_render_light(light, kMostBands);
+  const double exposure = auto_exposure(render_light.coefficients);
+
+  const std::vector<Drawn> group = draw_group(scene, render_light, params, sources.params().samples);
+  const Reference truth = trace_reference(scene, light, params, nullptr, sources.pick(64, 512), out.progress());
+  const Image backdrop = draw_backdrop(scene, render_light, params);
+  const auto show = [&](const std::string& id, const std::string& title, const Image& radiance) {
+    return out.add_picture(id, make_picture8(add_images(radiance, backdrop), exposure), title);
+  };
+
+  ImageErrorParams radiance_error;
+  radiance_error.meaning = Meaning::kRadiance;
+  HtmlTable table = {{"figure", "relative RMSE", "FLIP"}, {}};
+  std::string html = "<div class=\"group\">\n";
+  for (const Drawn& drawn : group) {
+    const ImageError error = measure_error(drawn.radiance, truth.radiance, radiance_error);
+    out.add_value(drawn.id + "_relative", error.relative);
+    out.add_value(drawn.id + "_flip", error.flip);
+    table.rows.push_back({drawn.id, fmt::format("{:.6g}", error.relative), fmt::format("{:.6g}", error.flip)});
+    html += html_figure(show(drawn.id, drawn.title, drawn.radiance),
+                        {"<b>" + drawn.title + ".</b>",
+                         fmt::format("error {}, FLIP {:.3f}", format_percent(error.relative), error.flip)});
+  }
+  const double difference = measure_error(group[3].radiance, group[2].radiance, radiance_error).relative;
+  out.add_value("classic_to_nine", difference);
+  out.add_value("reference_noise", truth.noise);
+  out.add_csv("figures-17-22", csv_table(table));
+  html += html_figure(show("reference", "The reference, path traced", truth.radiance),
+                      {"<b>The truth</b>, path traced without spherical harmonics.",
+                       fmt::format("noise {}", format_percent(truth.noise))});
+  html += "</div>\n";
+  out.add_html(html);
+  out.add_html(fmt::format("<p>Figures 19 and 20, the two ways to three bands, differ by {}.</p>\n",
+                           format_percent(difference)));
+}
+
+}  // namespace
+
+std::vector<PartRecipe> irradiance_recipes() {
+  return {{"figures-17-22", "Figures 17 to 22: one scene by 1 to 5 bands", 20, make_figures_17_to_22}};
+}
+
+}  // namespace shlight

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "shlight/brdf/brdf.h"
+#include "shlight/image/image.h"
+#include "shlight/image/tone_map.h"
+#include "shlight/light/light.h"
+#include "shlight/render/render.h"
+#include "shlight/scene/scene.h"
+
+// Pictures of the report, drawn and traced so that they can be compared pixel by pixel. Not installed.
+
+namespace shlight {
+
+using DrawMethod = std::function<RenderResult(const RenderLight&, const RenderParams&)>;
+
+// Draws kFine times as wide and high and takes the mean of each block: the pixels of an outline are then covered as
+// exactly as a path tracer's, and no error is measured there but the method's. Linear radiance.
+inline constexpr int kFine = 4;
+Image draw_fine(const RenderLight& light, const RenderParams& params, const DrawMethod& draw);
+
+// The mean of each block of factor x factor pixels; what is left over at the right and at the bottom is left out.
+Image average_blocks(const Image& image, int factor);
+
+// What the light behind the scene adds to pictures that were drawn without it, outlines included: the same for every
+// method, so that it stays out of errors.
+Image draw_backdrop(const Scene& scene, const RenderLight& light, RenderParams params);
+
+// The sum of two pictures of one size.
+Image add_images(const Image& a, const Image& b);
+
+// What the methods approximate: no shadows, `brdf` or, without one, the scene's own colours; params' view and size.
+// `noise`: the root mean square of its pixels' deviations, relative to that of the pixels.
+struct Reference {
+  Image radiance;
+  double noise = 0;
+};
+Reference trace_reference(const Scene& scene, const Light& light, const RenderParams& params, const Brdf* brdf,
+                          int samples, const Progress& progress);
+
+}  // namespace shlight

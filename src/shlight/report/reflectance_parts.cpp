@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "shlight/brdf/make_brdf.h"
+#include "shlight/report/html.h"
+#include "shlight/report/part.h"
+#include "shlight/report/picture.h"
+#include "shlight/report/thesis_materials.h"
+#include "shlight/truth/image_error.h"
+
+// Figures 24 to 38: reflection models beside each other, and by three, five and eight bands beside the truth.
+
+namespace shlight {
+namespace {
+
+constexpr const char* kModel = "builtin:knot";
+
+// What the figures of one light share.
+struct Studio {
+  const Scene& scene;
+  const Light& light;
+  RenderLight render_light;
+  RenderParams params;
+  Image backdrop;
+  double exposure;
+};
+
+Studio make_studio(ReportSources& sources) {
+  const Light& light = sources.light();
+  RenderParams params;
+  params.width = sources.pick(180, 400), params.height = params.width;
+  params.camera = {20, 12, 1.1};
+  params.show_background = false;
+  RenderLight render_light = make_render_light(light, kMaxRenderBands);
+  const Scene& scene = sources.scene(kModel);
+  Image backdrop = draw_backdrop(scene, render_light, params);
+  const double exposure = auto_exposure(render_light.coefficients);
+  return {scene, light, std::move(render_light), params, std::move(backdrop), exposure};
+}
+
+std::string add_shown(PartWriter& out, const Studio& studio, const std::string& id, const std::string& title,
+                      const Image& radiance) {
+  return out.add_picture(id, make_picture8(add_images(radiance, studio.backdrop), studio.exposure), title);
+}
+
+ImageError measure_radiance_error(const Image& test, const Image& reference) {
+  ImageErrorParams params;
+  params.meaning = Meaning::kRadiance;
+  return measure_error(test, reference, params);
+}
+
+Image draw_reflectance(const Studio& studio, const Brdf& brdf, int bands) {
+  ReflectanceTableParams table;
+  table.bands = bands;
+  const auto surfaces = make_surface_reflectances(studio.scene, brdf, table);
+  RenderParams params = studio.params;
+  params.bands = bands;
+  return draw_fine(studio.render_light, params, [&](const RenderLight& light, const RenderParams& p) {
+    return render_reflectance(studio.scene, surfaces, light, p);
+  });
+}
+
+// A picture of eight bands, its error, and what it approximates.
+struct Measured {
+  Image drawn;
+  ImageError error;
+  Reference truth;
+};
+Measured measure_material(const Studio& studio, const std::string& material, int bands, int samples,
+                          const Progress& progress) {
+  const auto brdf = make_brdf(material);
+  Measured measured = {draw_reflectance(studio, *brdf, bands), {}, {}};
+  measured.truth = trace_reference(studio.scene, studio.light, studio.params, brdf.get(), samples, progress);
+  measured.error = measure_radiance_error(measured.drawn, measured.truth.radiance);
+  return measured;
+}
+
+std::string describe_error(const ImageError& error) {
+  return fmt::format("error {}, FLIP {:.3f}", format_percent(error.relative), error.flip);
+}
+
+void add_errors(PartWriter& out, const std::string& name, const ImageError& error) {
+  out.add_value(name + "_relative", error.relative);
+  out.add_value(name + "_flip", error.flip);
+}
+
+// Two materials side by side, with how far they are from each other.
+struct Pair {
+  const char *part, *part_title;
+  std::array<const char*, 2> id, title, material;
+};
+
+void make_pair(const Pair& pair, ReportSources& sources, PartWriter& out) {
+  constexpr int kBands = 8;
+  const Studio studio = make_studio(sources);
+  std::string html = "<div class=\"group\">\n";
+  std::vector<Image> truths;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Progress half = [&](double fraction) {
+      report_progress(out.progress(), (static_cast<double>(i) + fraction) / 2);
+      return true;
+    };
+    Measured measured = measure_material(studio, pair.material[i], kBands, sources.pick(64, 256), half);
+    add_errors(out, pair.id[i], measured.error);
+    html += html_figure(
+        add_shown(out, studio, pair.id[i], pair.title[i], measured.drawn),
+        {fmt::format("<b>{}.</b>", pair.title[i]), fmt::format("<code>{}</code>, {} bands", pair.material[i], kBands),
+         describe_error(measured.error)});
+    truths.push_back(std::move(measured.truth.radiance));
+  }
+  const double difference = measure_radiance_error(truths[0], truths[1]).relative;
+  out.add_value("difference", difference);
+  out.add_html(html + "</div>\n");
+  out.add_html(
+      fmt::format("<p>The two materials themselves, path traced, differ by {}.</p>\n", format_percent(difference)));
+}
+
+// One material by three, five and eight bands and path traced.
+void make_row(const ThesisMaterial& material, int first_figure, ReportSources& sources, PartWriter& out) {
+  const Studio studio = make_studio(sources);
+  const auto brdf = make_brdf(material.text);
+  const Reference truth =
+      trace_reference(studio.scene, studio.light, studio.params, brdf.get(), sources.pick(64, 512), out.progress());
+  std::string html = "<div class=\"group four\">\n";
+  HtmlTable table = {{"bands", "relative RMSE", "FLIP"}, {}};
+  for (const int bands : {3, 5, 8}) {
+    const Image drawn = draw_reflectance(studio, *brdf, bands);
+    const ImageError error = measure_radiance_error(drawn, truth.radiance);
+    const std::string figure = bands == 8 ? "" : fmt::format("Figure {}. ", first_figure + (bands == 5));
+    const std::string title = fmt::format("{}{}, {} bands", figure, material.name, bands);
+    add_errors(out, fmt::format("bands_{}", bands), error);
+    table.rows.push_back(
+        {fmt::format("{}", bands), fmt::format("{:.6g}", error.relative), fmt::format("{:.6g}", error.flip)});
+    html += html_figure(add_shown(out, studio, fmt::format("{}-{}-bands", material.id, bands), title, drawn),
+                        {"<b>" + title + ".</b>", describe_error(error)});
+  }
+  out.add_value("reference_noise", truth.noise);
+  out.add_csv(material.id, csv_table(table));
+  html += html_figure(add_shown(out, studio, std::string(material.id) + "-reference", "The reference", truth.radiance),
+                      {"<b>The truth</b>, path traced.", fmt::format("noise {}", format_percent(truth.noise))});
+  out.add_html(html + "</div>\n");
+}
+
+}  // namespace
+
+std::vector<PartRecipe> reflectance_recipes() {
+  static constexpr Pair kPairs[] = {
+      {"figures-24-25",
+       "Figures 24 and 25: Oren-Nayar beside Lambert",
+       {"figure-24", "figure-25"},
+       {"Figure 24. Oren-Nayar", "Figure 25. Lambert"},
+       {"oren-nayar:rho=0.8,sigma=0.8", "lambert:rho=0.8"}},
+      {"figures-26-27",
+       "Figures 26 and 27: Ward, anisotropic beside isotropic",
+       {"figure-26", "figure-27"},
+       {"Figure 26. Ward, anisotropic", "Figure 27. Ward, isotropic"},
+       {"ward-aniso:rd=0.1,rs=0.6,sx=0.15,sy=0.6", "ward:rd=0.1,rs=0.6,sigma=0.3"}},
+      {"figures-28-29",
+       "Figures 28 and 29: Cook-Torrance of two roughnesses",
+       {"figure-28", "figure-29"},
+       {"Figure 28. Cook-Torrance, m = 0.5", "Figure 29. Cook-Torrance, m = 0.6"},
+       {"cook-torrance:m=0.5,f0=0.9", "cook-torrance:m=0.6,f0=0.9"}},
+  };
+  std::vector<PartRecipe> recipes;
+  for (const Pair& pair : kPairs)
+    recipes.push_back({pair.part, pair.part_title, 8,
+                       [&pair](ReportSources& sources, PartWriter& out) { make_pair(pair, sources, out); }});
+  int figure = 31;
+  for (const ThesisMaterial& material : thesis_materials()) {
+    const std::string id = fmt::format("figures-{}-{}", figure, figure + 1);
+    recipes.push_back(
+        {id, fmt::format("Figures {} and {}: {} by 3, 5 and 8 bands", figure, figure + 1, material.name), 10,
+         [&material, figure](ReportSources& sources, PartWriter& out) { make_row(material, figure, sources, out); }});
+    figure += 2;
+  }
+  return recipes;
+}
+
+}  // namespace shlight
