@@ -22,16 +22,16 @@ void make_figure_10(ReportSources& sources, PartWriter& out) {
   const auto light = make_studio_light();
   RenderParams params;
   params.width = sources.pick(540, 1080), params.height = params.width * 5 / 9;
-  params.camera = {0, 8, 1.5, 14};
+  params.camera = {0, 6, 1.3, 14};
   RenderLight studio = make_render_light(*light, params.bands);
   // A plain dark ground instead of the studio.
   studio.background = Image(4, 2);
-  std::ranges::fill(studio.background.values, 0.02f);
+  std::ranges::fill(studio.background.values, 0.015f);
   const Scene scene = make_balloon_scene(kBands);
   const Image radiance = draw_fine(
       studio, params, [&](const RenderLight& l, const RenderParams& p) { return render_irradiance(scene, l, p); });
   out.add_html(html_figure(
-      out.add_picture("figure-10", make_picture8(radiance, 1.7 * auto_exposure(light->project(1))),
+      out.add_picture("figure-10", make_picture8(radiance, 1.1 * auto_exposure(light->project(1))),
                       "Twenty-five surfaces in five rows, one for each spherical harmonic of five bands"),
       {"<b>Figure 10.</b> The basis functions of five bands: the distance of the surface is |<i>y</i>|, orange where "
        "it "

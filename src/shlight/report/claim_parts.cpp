@@ -35,7 +35,7 @@ std::vector<std::string> lights_of(ReportSources& sources) {
   std::vector<std::string> names = {sources.params().light};
   for (const char* name : {"builtin:sky", "builtin:studio", "builtin:panel", "builtin:thesis"})
     if (std::ranges::find(names, name) == names.end()) names.emplace_back(name);
-  names.resize(std::min(names.size(), sources.pick<std::size_t>(2, 4)));
+  names.resize(std::min(names.size(), sources.pick<std::size_t>(1, 4)));
   return names;
 }
 
@@ -167,31 +167,38 @@ void make_claim_3(ReportSources& sources, PartWriter& out) {
 }
 
 void make_claim_4(ReportSources& sources, PartWriter& out) {
-  constexpr int kVertices = 1024;
   const Scene scene = make_table_knot(64, 16);
-  const double rotation = measure_rotation_seconds(kVertices);
+  const double rotation = measure_rotation_seconds(1024);
   out.add_time("rotation_seconds", rotation);
-  HtmlTable table = {{"material", "thesis, a view", "at each vertex, FPS", "at each pixel, FPS"}, {}};
-  double slowest = 1e9;
+  HtmlTable table = {{"material", "thesis, a new eye", "a new eye today", "at each vertex, FPS", "at each pixel, FPS"},
+                     {}};
+  double slowest = 0, done = 0;
   for (const ThesisMaterial& material : thesis_materials()) {
     const auto brdf = make_brdf(material.text);
     const auto fps = [&](Shade shade) {
-      return measure_reflectance_frames(scene, *brdf, sources.light(), shade, sources.pick(5, 40));
+      return measure_reflectance_frames(scene, *brdf, sources.light(), shade, sources.pick(2, 20));
     };
-    const double vertex = fps(Shade::kVertex), pixel = fps(Shade::kPixel);
+    const double view = measure_view_seconds(*brdf), vertex = fps(Shade::kVertex), pixel = fps(Shade::kPixel);
+    out.add_time(fmt::format("view_seconds_{}", material.id), view);
     out.add_time(fmt::format("vertex_fps_{}", material.id), vertex);
     out.add_time(fmt::format("pixel_fps_{}", material.id), pixel);
-    table.rows.push_back(
-        {material.name, format_seconds(material.thesis_seconds), format_count(vertex), format_count(pixel)});
-    slowest = std::min(slowest, vertex);
+    table.rows.push_back({material.name, format_seconds(material.thesis_seconds), format_seconds(view),
+                          format_count(vertex), format_count(pixel)});
+    slowest = std::max(slowest, view);
+    report_progress(out.progress(), (done += 1) / 4);
   }
   out.add_html(html_table(table));
+  const FrameRow plain = measure_frame_row(scene, sources.light(), sources.pick(2, 20));
+  out.add_time("plain_fps", plain.irradiance);
   out.add_html(
-      verdict(slowest < kRealTime, false,
-              fmt::format("1 440 × 900 pixels of 1 024 vertices, the view turning: {} frames a second and more, "
-                          "where {} are real time. Turning 3 × 25 coefficients into the frames of 1 024 "
-                          "vertices takes {} of one thread, and F* of all views is a table made once.",
-                          format_count(slowest), format_count(kRealTime), format_seconds(rotation))));
+      verdict(slowest > 1 / kRealTime, false,
+              fmt::format("Turning 3 × 25 coefficients into the frames of 1 024 vertices takes {} of one "
+                          "thread. With F* from a table of all views, a new eye costs {} at most, where 1/{:g} s "
+                          "is real time. Frames of 1 440 × 900 pixels are drawn by {}, the light turned and F* "
+                          "looked up at each vertex or each pixel of each frame; nine coefficients are drawn {} "
+                          "times a second there.",
+                          format_seconds(rotation), format_seconds(slowest), kRealTime, escape_xml(plain.gl_renderer),
+                          format_count(plain.irradiance))));
 }
 
 void make_claim_5(ReportSources& sources, PartWriter& out) {

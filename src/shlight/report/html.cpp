@@ -86,8 +86,9 @@ std::string format_seconds(double seconds) {
 
 std::string format_percent(double fraction) {
   const double percent = 100 * std::abs(fraction);
-  return percent != 0 && percent < 0.001 ? fmt::format("{:.1e} %", 100 * fraction)
-                                         : fmt::format("{:.2g} %", 100 * fraction);
+  if (percent != 0 && percent < 0.001) return fmt::format("{:.0e} %", 100 * fraction);
+  if (percent < 1) return fmt::format("{:.2g} %", 100 * fraction);
+  return fmt::format("{:.{}f} %", 100 * fraction, percent < 9.95 ? 1 : 0);
 }
 
 std::string format_factor(double factor) {

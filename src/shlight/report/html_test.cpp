@@ -30,8 +30,10 @@ TEST(Html, NumbersAsPeopleReadThem) {
   EXPECT_EQ(format_seconds(0.0012), "1.20 ms");
   EXPECT_EQ(format_seconds(65e-6), "65.0 µs");
   EXPECT_EQ(format_percent(0.0035), "0.35 %");
+  EXPECT_EQ(format_percent(0.05), "5.0 %");
+  EXPECT_EQ(format_percent(0.53), "53 %");
   EXPECT_EQ(format_percent(0), "0 %");
-  EXPECT_EQ(format_percent(2e-8), "2.0e-06 %");
+  EXPECT_EQ(format_percent(2e-8), "2e-06 %");
   EXPECT_EQ(format_factor(12.3), "12 ×");
   EXPECT_EQ(format_count(31076), "31\u202f076");
   EXPECT_EQ(format_count(999), "999");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "shlight/core/assert.h"
 #include "shlight/truth/path_tracer.h"
@@ -17,6 +18,18 @@ Image combine(const Image& a, const Image& b, F&& f) {
   Image result(a.width, a.height);
   std::ranges::transform(a.values, b.values, result.values.begin(), f);
   return result;
+}
+
+double sum(const Image& image) {
+  double total = 0;
+  for (const float v : image.values) total += double{v};
+  return total;
+}
+
+double sum_of_squares(const Image& image) {
+  double total = 0;
+  for (const float v : image.values) total += double{v} * double{v};
+  return total;
 }
 
 }  // namespace
@@ -44,11 +57,11 @@ Image draw_backdrop(const Scene& scene, const RenderLight& light, RenderParams p
   params.show_background = false;
   const Image without = draw_fine(light, params, draw);
   params.show_background = true;
-  return combine(draw_fine(light, params, draw), without, [](float with, float model) { return with - model; });
+  return combine(draw_fine(light, params, draw), without, std::minus<float>());
 }
 
 Image add_images(const Image& a, const Image& b) {
-  return combine(a, b, [](float x, float y) { return x + y; });
+  return combine(a, b, std::plus<float>());
 }
 
 Reference trace_reference(const Scene& scene, const Light& light, const RenderParams& params, const Brdf* brdf,
@@ -61,10 +74,20 @@ Reference trace_reference(const Scene& scene, const Light& light, const RenderPa
   trace.brdf = brdf;
   trace.show_background = false;
   PathTraceResult result = trace_paths(scene, light, trace, progress);
-  double variance = 0, square = 0;
-  for (const float v : result.variance.values) variance += double{v};
-  for (const float v : result.radiance.values) square += double{v} * double{v};
-  return {std::move(result.radiance), square > 0 ? std::sqrt(variance / square) : 0};
+  const double square = sum_of_squares(result.radiance), variance = sum(result.variance);
+  return {std::move(result.radiance), std::move(result.variance), square > 0 ? std::sqrt(variance / square) : 0};
+}
+
+double relative_error(const Image& test, const Reference& reference) {
+  const Image difference = combine(test, reference.radiance, std::minus<float>());
+  const double noise = sum(reference.variance);
+  const double square = sum_of_squares(reference.radiance) - noise;
+  return square > 0 ? std::sqrt(std::max(0.0, sum_of_squares(difference) - noise) / square) : 0;
+}
+
+double relative_difference(const Reference& a, const Reference& b) {
+  Reference both = {b.radiance, add_images(a.variance, b.variance), 0};
+  return relative_error(a.radiance, both);
 }
 
 }  // namespace shlight

@@ -18,7 +18,7 @@ using DrawMethod = std::function<RenderResult(const RenderLight&, const RenderPa
 
 // Draws kFine times as wide and high and takes the mean of each block: the pixels of an outline are then covered as
 // exactly as a path tracer's, and no error is measured there but the method's. Linear radiance.
-inline constexpr int kFine = 4;
+inline constexpr int kFine = 3;
 Image draw_fine(const RenderLight& light, const RenderParams& params, const DrawMethod& draw);
 
 // The mean of each block of factor x factor pixels; what is left over at the right and at the bottom is left out.
@@ -32,12 +32,18 @@ Image draw_backdrop(const Scene& scene, const RenderLight& light, RenderParams p
 Image add_images(const Image& a, const Image& b);
 
 // What the methods approximate: no shadows, `brdf` or, without one, the scene's own colours; params' view and size.
-// `noise`: the root mean square of its pixels' deviations, relative to that of the pixels.
 struct Reference {
-  Image radiance;
-  double noise = 0;
+  Image radiance, variance;
+  double noise = 0;  // root mean square of the pixels' deviations, relative to that of the pixels
 };
 Reference trace_reference(const Scene& scene, const Light& light, const RenderParams& params, const Brdf* brdf,
                           int samples, const Progress& progress);
+
+// Root mean square of a picture's error, relative to that of the reference. The reference's own noise, which it knows,
+// is taken out of both: the mean of (test − reference)² is that of the error's square and the variance.
+double relative_error(const Image& test, const Reference& reference);
+
+// The same between two references, the noise of both taken out.
+double relative_difference(const Reference& a, const Reference& b);
 
 }  // namespace shlight

@@ -2,13 +2,13 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include "shlight/brdf/make_brdf.h"
 #include "shlight/report/html.h"
 #include "shlight/report/part.h"
 #include "shlight/report/picture.h"
 #include "shlight/report/thesis_materials.h"
-#include "shlight/truth/image_error.h"
 
 // Figures 24 to 38: reflection models beside each other, and by three, five and eight bands beside the truth.
 
@@ -30,7 +30,7 @@ struct Studio {
 Studio make_studio(ReportSources& sources) {
   const Light& light = sources.light();
   RenderParams params;
-  params.width = sources.pick(180, 400), params.height = params.width;
+  params.width = sources.pick(160, 320), params.height = params.width;
   params.camera = {20, 12, 1.1};
   params.show_background = false;
   RenderLight render_light = make_render_light(light, kMaxRenderBands);
@@ -40,15 +40,21 @@ Studio make_studio(ReportSources& sources) {
   return {scene, light, std::move(render_light), params, std::move(backdrop), exposure};
 }
 
+// The one of all parts, made by the first that asks for it.
+class SharedStudio {
+ public:
+  const Studio& get(ReportSources& sources) {
+    if (!studio_) studio_ = std::make_unique<Studio>(make_studio(sources));
+    return *studio_;
+  }
+
+ private:
+  std::unique_ptr<Studio> studio_;
+};
+
 std::string add_shown(PartWriter& out, const Studio& studio, const std::string& id, const std::string& title,
                       const Image& radiance) {
   return out.add_picture(id, make_picture8(add_images(radiance, studio.backdrop), studio.exposure), title);
-}
-
-ImageError measure_radiance_error(const Image& test, const Image& reference) {
-  ImageErrorParams params;
-  params.meaning = Meaning::kRadiance;
-  return measure_error(test, reference, params);
 }
 
 Image draw_reflectance(const Studio& studio, const Brdf& brdf, int bands) {
@@ -62,28 +68,8 @@ Image draw_reflectance(const Studio& studio, const Brdf& brdf, int bands) {
   });
 }
 
-// A picture of eight bands, its error, and what it approximates.
-struct Measured {
-  Image drawn;
-  ImageError error;
-  Reference truth;
-};
-Measured measure_material(const Studio& studio, const std::string& material, int bands, int samples,
-                          const Progress& progress) {
-  const auto brdf = make_brdf(material);
-  Measured measured = {draw_reflectance(studio, *brdf, bands), {}, {}};
-  measured.truth = trace_reference(studio.scene, studio.light, studio.params, brdf.get(), samples, progress);
-  measured.error = measure_radiance_error(measured.drawn, measured.truth.radiance);
-  return measured;
-}
-
-std::string describe_error(const ImageError& error) {
-  return fmt::format("error {}, FLIP {:.3f}", format_percent(error.relative), error.flip);
-}
-
-void add_errors(PartWriter& out, const std::string& name, const ImageError& error) {
-  out.add_value(name + "_relative", error.relative);
-  out.add_value(name + "_flip", error.flip);
+Reference trace_material(const Studio& studio, const Brdf& brdf, ReportSources& sources, const Progress& progress) {
+  return trace_reference(studio.scene, studio.light, studio.params, &brdf, sources.pick(32, 256), progress);
 }
 
 // Two materials side by side, with how far they are from each other.
@@ -92,25 +78,27 @@ struct Pair {
   std::array<const char*, 2> id, title, material;
 };
 
-void make_pair(const Pair& pair, ReportSources& sources, PartWriter& out) {
+void make_pair(const Pair& pair, SharedStudio& shared, ReportSources& sources, PartWriter& out) {
   constexpr int kBands = 8;
-  const Studio studio = make_studio(sources);
-  std::string html = "<div class=\"group\">\n";
-  std::vector<Image> truths;
+  const Studio& studio = shared.get(sources);
+  std::string html = "<div class=\"group two\">\n";
+  std::array<Reference, 2> truths;
   for (std::size_t i = 0; i < 2; ++i) {
     const Progress half = [&](double fraction) {
       report_progress(out.progress(), (static_cast<double>(i) + fraction) / 2);
       return true;
     };
-    Measured measured = measure_material(studio, pair.material[i], kBands, sources.pick(64, 256), half);
-    add_errors(out, pair.id[i], measured.error);
+    const auto brdf = make_brdf(pair.material[i]);
+    const Image drawn = draw_reflectance(studio, *brdf, kBands);
+    truths[i] = trace_material(studio, *brdf, sources, half);
+    const double error = relative_error(drawn, truths[i]);
+    out.add_value(pair.id[i], error);
     html += html_figure(
-        add_shown(out, studio, pair.id[i], pair.title[i], measured.drawn),
-        {fmt::format("<b>{}.</b>", pair.title[i]), fmt::format("<code>{}</code>, {} bands", pair.material[i], kBands),
-         describe_error(measured.error)});
-    truths.push_back(std::move(measured.truth.radiance));
+        add_shown(out, studio, pair.id[i], pair.title[i], drawn),
+        {fmt::format("<b>{}.</b>", pair.title[i]),
+         fmt::format("<code>{}</code>, {} bands, error {}", pair.material[i], kBands, format_percent(error))});
   }
-  const double difference = measure_radiance_error(truths[0], truths[1]).relative;
+  const double difference = relative_difference(truths[0], truths[1]);
   out.add_value("difference", difference);
   out.add_html(html + "</div>\n");
   out.add_html(
@@ -118,23 +106,22 @@ void make_pair(const Pair& pair, ReportSources& sources, PartWriter& out) {
 }
 
 // One material by three, five and eight bands and path traced.
-void make_row(const ThesisMaterial& material, int first_figure, ReportSources& sources, PartWriter& out) {
-  const Studio studio = make_studio(sources);
+void make_row(const ThesisMaterial& material, int first_figure, SharedStudio& shared, ReportSources& sources,
+              PartWriter& out) {
+  const Studio& studio = shared.get(sources);
   const auto brdf = make_brdf(material.text);
-  const Reference truth =
-      trace_reference(studio.scene, studio.light, studio.params, brdf.get(), sources.pick(64, 512), out.progress());
+  const Reference truth = trace_material(studio, *brdf, sources, out.progress());
   std::string html = "<div class=\"group four\">\n";
-  HtmlTable table = {{"bands", "relative RMSE", "FLIP"}, {}};
+  HtmlTable table = {{"bands", "relative_error"}, {}};
   for (const int bands : {3, 5, 8}) {
     const Image drawn = draw_reflectance(studio, *brdf, bands);
-    const ImageError error = measure_radiance_error(drawn, truth.radiance);
+    const double error = relative_error(drawn, truth);
     const std::string figure = bands == 8 ? "" : fmt::format("Figure {}. ", first_figure + (bands == 5));
     const std::string title = fmt::format("{}{}, {} bands", figure, material.name, bands);
-    add_errors(out, fmt::format("bands_{}", bands), error);
-    table.rows.push_back(
-        {fmt::format("{}", bands), fmt::format("{:.6g}", error.relative), fmt::format("{:.6g}", error.flip)});
+    out.add_value(fmt::format("bands_{}", bands), error);
+    table.rows.push_back({fmt::format("{}", bands), fmt::format("{:.6g}", error)});
     html += html_figure(add_shown(out, studio, fmt::format("{}-{}-bands", material.id, bands), title, drawn),
-                        {"<b>" + title + ".</b>", describe_error(error)});
+                        {"<b>" + title + ".</b>", "error " + format_percent(error)});
   }
   out.add_value("reference_noise", truth.noise);
   out.add_csv(material.id, csv_table(table));
@@ -163,16 +150,19 @@ std::vector<PartRecipe> reflectance_recipes() {
        {"Figure 28. Cook-Torrance, m = 0.5", "Figure 29. Cook-Torrance, m = 0.6"},
        {"cook-torrance:m=0.5,f0=0.9", "cook-torrance:m=0.6,f0=0.9"}},
   };
+  const auto studio = std::make_shared<SharedStudio>();
   std::vector<PartRecipe> recipes;
   for (const Pair& pair : kPairs)
-    recipes.push_back({pair.part, pair.part_title, 8,
-                       [&pair](ReportSources& sources, PartWriter& out) { make_pair(pair, sources, out); }});
+    recipes.push_back({pair.part, pair.part_title, 8, [&pair, studio](ReportSources& sources, PartWriter& out) {
+                         make_pair(pair, *studio, sources, out);
+                       }});
   int figure = 31;
   for (const ThesisMaterial& material : thesis_materials()) {
-    const std::string id = fmt::format("figures-{}-{}", figure, figure + 1);
-    recipes.push_back(
-        {id, fmt::format("Figures {} and {}: {} by 3, 5 and 8 bands", figure, figure + 1, material.name), 10,
-         [&material, figure](ReportSources& sources, PartWriter& out) { make_row(material, figure, sources, out); }});
+    recipes.push_back({fmt::format("figures-{}-{}", figure, figure + 1),
+                       fmt::format("Figures {} and {}: {} by 3, 5 and 8 bands", figure, figure + 1, material.name), 10,
+                       [&material, figure, studio](ReportSources& sources, PartWriter& out) {
+                         make_row(material, figure, *studio, sources, out);
+                       }});
     figure += 2;
   }
   return recipes;

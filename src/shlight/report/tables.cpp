@@ -118,6 +118,16 @@ RgbCoefficients to_world(const FrameRotation& rotation, const LocalFrame& frame,
   return result;
 }
 
+// F* of every vertex, from the table, in the world's frame.
+std::vector<RgbCoefficients> look_up(const ReflectanceTable& table, const std::vector<Seen>& seen) {
+  const FrameRotation rotation(table.bands);
+  std::vector<RgbCoefficients> result(seen.size());
+  parallel_for(seen.size(), 0, [&](std::size_t i) {
+    result[i] = to_world(rotation, seen[i].frame, eval_reflectance_table(table, seen[i].view));
+  });
+  return result;
+}
+
 }  // namespace
 
 Scene make_table_knot(int along, int around) {
@@ -210,8 +220,17 @@ BrdfRow measure_brdf_row(const Brdf& brdf, int samples) {
     });
   });
   row.own.error = error_of(own, truth);
-  row.table_seconds = time_once([&] { make_reflectance_table(brdf); });
+  ReflectanceTable table;
+  row.table_seconds = time_once([&] { table = make_reflectance_table(brdf); });
+  row.lookup.seconds = time_of(kRuns, [&](int) { own = look_up(table, seen); });
+  row.lookup.error = error_of(own, truth);
   return row;
+}
+
+double measure_view_seconds(const Brdf& brdf) {
+  const ReflectanceTable table = make_reflectance_table(brdf);
+  const std::vector<Seen> seen = make_seen();
+  return time_of(kRuns, [&](int) { look_up(table, seen); });
 }
 
 double measure_rotation_seconds(int vertices) {

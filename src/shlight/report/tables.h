@@ -45,10 +45,14 @@ TransferRow measure_transfer_row(const Scene& scene, int samples);
 struct BrdfRow {
   MethodCost classic;        // project_brdf_monte_carlo
   MethodCost own;            // quadrature with the fewest nodes that are ten times as exact as that
-  double nodes_seconds = 0;  // to find those nodes, once for a material
-  double table_seconds = 0;  // for the table of all views that is drawn with, once for a material
+  MethodCost lookup;         // from the table of all views that is drawn with
+  double nodes_seconds = 0;  // to find the nodes, once for a material
+  double table_seconds = 0;  // to make the table, once for a material
 };
 BrdfRow measure_brdf_row(const Brdf& brdf, int samples);
+
+// What of table 3 a new eye takes once the table of all views is there.
+double measure_view_seconds(const Brdf& brdf);
 
 // Seconds to turn a light's 3 x 25 coefficients into the frames of so many vertices, on one thread.
 double measure_rotation_seconds(int vertices);
