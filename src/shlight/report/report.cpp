@@ -41,6 +41,7 @@ std::string make_part(const PartRecipe& recipe, ReportSources& sources, const st
   PartWriter writer(folder, part, progress);
   std::string html;
   try {
+    report_progress(progress, 0);
     recipe.make(sources, writer);
     html = writer.html();
   } catch (const Cancelled& cancelled) {
