@@ -85,7 +85,7 @@ void make_figure_12(ReportSources& sources, PartWriter& out) {
 
 void make_figure_16(ReportSources&, PartWriter& out) {
   constexpr int kLast = 12;
-  PlotCurve lobe = {"Â(l)", {}, false, true}, decay = {"|Â(2)| (2/l)^2.5", {}};
+  PlotCurve lobe = {"Âₗ", {}, false, true}, decay = {"Â₂ (2/l)²·⁵", {}};
   HtmlTable table = {{"l", "Â_l"}, {}};
   for (int l = 0; l <= kLast; ++l) {
     const double value = cosine_lobe_hat(l);
@@ -99,7 +99,7 @@ void make_figure_16(ReportSources&, PartWriter& out) {
       out.add_plot("figure-16",
                    make_line_plot(make_axis(0, kLast, 2, "degree l"), make_axis(-0.5, 3.5, 0.5, "Â"), {lobe, decay}),
                    "Dots that fall from pi to nearly zero"),
-      {fmt::format("<b>Figure 16.</b> <i>Â<sub>l</sub></i> against the degree: {:.6f}, {:.6f}, {:.6f}, 0, {:.6f}, 0, "
+      {fmt::format("<b>Figure 16.</b> <i>Â<sub>l</sub></i> against the degree: {:.6f}, {:.6f}, {:.6f}, 0, −{:.6f}, 0, "
                    "{:.6f}: the first three bands hold nearly all of it.",
                    cosine_lobe_hat(0), cosine_lobe_hat(1), cosine_lobe_hat(2), cosine_lobe_hat(4),
                    cosine_lobe_hat(6))}));

@@ -86,7 +86,10 @@ std::string format_seconds(double seconds) {
 
 std::string format_percent(double fraction) {
   const double percent = 100 * std::abs(fraction);
-  if (percent != 0 && percent < 0.001) return fmt::format("{:.0e} %", 100 * fraction);
+  if (percent != 0 && percent < 0.001) {
+    const auto exponent = static_cast<int>(std::floor(std::log10(percent)));
+    return fmt::format("{:.1f} · 10<sup>−{}</sup> %", 100 * fraction / std::pow(10, exponent), -exponent);
+  }
   if (percent < 1) return fmt::format("{:.2g} %", 100 * fraction);
   return fmt::format("{:.{}f} %", 100 * fraction, percent < 9.95 ? 1 : 0);
 }
@@ -96,6 +99,7 @@ std::string format_factor(double factor) {
 }
 
 std::string format_count(double count) {
+  if (count < 9.95 && count != std::round(count)) return fmt::format("{:.1f}", count);
   std::string digits = fmt::format("{:.0f}", count);
   for (std::size_t at = digits.size(); at > 3;) digits.insert(at -= 3, "\u202f");
   return digits;

@@ -27,11 +27,11 @@ std::string html_table(const HtmlTable& table);
 // The same numbers for other programs. Cells with commas or quotes are quoted (RFC 4180).
 std::string csv_table(const HtmlTable& table);
 
-// A time as people read it: "43.8 s", "1.20 ms", "65 µs". A fraction in percent: "0.35 %". A factor: "1 200 ×".
+// HTML. A time as people read it: "43.8 s", "1.20 ms", "65.0 µs". A fraction in percent: "0.35 %". A factor: "12 ×".
 std::string format_seconds(double seconds);
 std::string format_percent(double fraction);
 std::string format_factor(double factor);
-// A count with thin spaces between thousands: "31 076".
+// A number with thin spaces between thousands: "31 076"; small ones with a digit after the point, where they have one.
 std::string format_count(double count);
 
 }  // namespace shlight

@@ -33,7 +33,7 @@ TEST(Html, NumbersAsPeopleReadThem) {
   EXPECT_EQ(format_percent(0.05), "5.0 %");
   EXPECT_EQ(format_percent(0.53), "53 %");
   EXPECT_EQ(format_percent(0), "0 %");
-  EXPECT_EQ(format_percent(2e-8), "2e-06 %");
+  EXPECT_EQ(format_percent(2e-8), "2.0 · 10<sup>−6</sup> %");
   EXPECT_EQ(format_factor(12.3), "12 ×");
   EXPECT_EQ(format_count(31076), "31\u202f076");
   EXPECT_EQ(format_count(999), "999");

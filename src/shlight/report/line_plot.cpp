@@ -11,9 +11,8 @@
 namespace shlight {
 namespace {
 
-constexpr double kWidth = 480, kLeft = 58, kRight = 464, kTop = 14, kBottom = 270;
-constexpr int kLegendColumns = 3;
-constexpr double kLegendLine = 20, kLegendColumn = (kRight - kLeft) / kLegendColumns;
+constexpr double kWidth = 480, kLeft = 58, kRight = 464, kTop = 26, kBottom = 270;
+constexpr double kLegendLine = 20;
 
 constexpr const char* kStyle =
     "text{font-size:13px}.dot{stroke-width:1}"
@@ -46,7 +45,7 @@ std::string draw_axes(const PlotAxis& x, const PlotAxis& y) {
     svg += svg_text(place_x(x, value), kBottom + 18, "ink", "middle", label);
   }
   svg += fmt::format("<path d=\"M{0} {1}V{2}H{3}\" class=\"axis\"/>\n", kLeft, kTop, kBottom, kRight);
-  svg += svg_text(kLeft + 6, kTop + 10, "faint", "start", y.label);
+  svg += svg_text(kLeft, kTop - 10, "faint", "start", y.label);
   return svg + svg_text(kRight, kBottom + 36, "faint", "end", x.label);
 }
 
@@ -66,8 +65,10 @@ PlotAxis make_axis(double low, double high, double step, std::string label) {
 std::string make_line_plot(const PlotAxis& x, const PlotAxis& y, const std::vector<PlotCurve>& curves) {
   SHLIGHT_ASSERT_LE(curves.size(), std::size_t{6});
   const auto named = std::ranges::count_if(curves, [](const PlotCurve& curve) { return !curve.name.empty(); });
+  const bool long_names = std::ranges::any_of(curves, [](const PlotCurve& curve) { return curve.name.size() > 14; });
+  const int columns = long_names ? 2 : 3;
   const double legend_top = kBottom + 58;
-  const double height = legend_top + kLegendLine * std::ceil(static_cast<double>(named) / kLegendColumns) - 6;
+  const double height = legend_top + kLegendLine * std::ceil(static_cast<double>(named) / columns) - 6;
   std::string svg = svg_begin(kWidth, height, kStyle, kDarkStyle) + draw_axes(x, y);
   int entry = 0;
   for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -80,8 +81,8 @@ std::string make_line_plot(const PlotAxis& x, const PlotAxis& y, const std::vect
     }
     if (curve.line) svg += fmt::format("<path d=\"{}\" class=\"curve {}\"/>\n", path, color);
     if (curve.name.empty()) continue;
-    const double left = kLeft + kLegendColumn * (entry % kLegendColumns);
-    const double top = legend_top + kLegendLine * (entry / kLegendColumns);
+    const double left = kLeft + (kRight - kLeft) / columns * (entry % columns);
+    const double top = legend_top + kLegendLine * static_cast<double>(entry / columns);
     svg += curve.line ? svg_line(left, top - 4, left + 22, top - 4, "curve " + color)
                       : draw_dot(left + 11, top - 4, color);
     svg += svg_text(left + 28, top, "ink", "start", curve.name);
