@@ -157,4 +157,4 @@ for material in cook-torrance oren-nayar ward-aniso ward; do
     thesis+=("$work/report/$material-$kind.png")
   done
 done
-oiiotool "${thesis[@]}" --resize:filter=box 200x200 --mosaic:pad=8 4x4 -o "$images/thesis.png"
+oiiotool "${thesis[@]}" --mosaic:pad=8 4x4 --resize 1000x0 -o "$images/thesis.png"

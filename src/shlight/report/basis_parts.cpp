@@ -101,7 +101,7 @@ void make_figure_16(ReportSources&, PartWriter& out) {
                    "Dots that fall from pi to nearly zero"),
       {fmt::format("<b>Figure 16.</b> <i>Â<sub>l</sub></i> against the degree: {:.6f}, {:.6f}, {:.6f}, 0, −{:.6f}, 0, "
                    "{:.6f}: the first three bands hold nearly all of it.",
-                   cosine_lobe_hat(0), cosine_lobe_hat(1), cosine_lobe_hat(2), cosine_lobe_hat(4),
+                   cosine_lobe_hat(0), cosine_lobe_hat(1), cosine_lobe_hat(2), -cosine_lobe_hat(4),
                    cosine_lobe_hat(6))}));
 }
 

@@ -85,8 +85,7 @@ void make_claim_1(ReportSources& sources, PartWriter& out) {
       fmt::format(
           "Three bands hold {:.2f} % of the energy of the clamped cosine. The mean error over all normals stays "
           "within {} of the largest irradiance under {} of {} lights, and is {} under the worst of them. Where "
-          "little light falls, three bands are off by up to {} of what there is: enough for pictures, not for "
-          "measuring shade.",
+          "little light falls, they are off by up to {} of what there is.",
           100 * cosine_energy(3), format_percent(kMostMean), kept, lights.size(), format_percent(worst_mean),
           format_percent(worst_local))));
 }
