@@ -21,7 +21,7 @@ void make_figure_10(ReportSources& sources, PartWriter& out) {
   constexpr int kBands = 5;
   const auto light = make_studio_light();
   RenderParams params;
-  params.width = sources.pick(540, 1080), params.height = params.width * 5 / 9;
+  params.width = sources.pick(360, 1080), params.height = params.width * 5 / 9;
   params.camera = {0, 6, 1.3, 14};
   RenderLight studio = make_render_light(*light, params.bands);
   // A plain dark ground instead of the studio.

@@ -52,11 +52,11 @@ std::vector<Drawn> draw_group(const Scene& scene, const RenderLight& light, Rend
   return group;
 }
 
-Image draw_interreflected(const Scene& scene, const RenderLight& light, RenderParams params) {
+Image draw_interreflected(const Scene& scene, const RenderLight& light, RenderParams params, int samples) {
   BakeParams bake;
   bake.kind = TransferKind::kInterreflected;
   bake.bands = params.bands = kMostBands;
-  bake.samples = 256;  // enough for pictures
+  bake.samples = samples;
   const Transfer transfer = bake_transfer(scene, bake);
   return draw_fine(light, params,
                    [&](const RenderLight& l, const RenderParams& p) { return render_transfer(scene, transfer, l, p); });
@@ -79,28 +79,28 @@ void make_figures_17_to_22(ReportSources& sources, PartWriter& out) {
     return out.add_picture(id, make_picture8(add_images(radiance, backdrop), exposure), title);
   };
 
-  HtmlTable table = {{"figure", "relative_error"}, {}};
+  HtmlTable table = {{"figure", "relative_error", "resolution"}, {}};
   std::string html = "<div class=\"group four\">\n";
   for (const Drawn& drawn : group) {
-    const double error = relative_error(drawn.radiance, truth);
-    out.add_value(drawn.id, error);
-    table.rows.push_back({drawn.id, fmt::format("{:.6g}", error)});
+    const PictureError error = measure_picture(drawn.radiance, truth);
+    add_error(out, drawn.id, error);
+    table.rows.push_back({drawn.id, fmt::format("{:.6g}", error.value), fmt::format("{:.6g}", error.resolution)});
     html += html_figure(show(drawn.id, drawn.title, drawn.radiance),
-                        {"<b>" + drawn.title + ".</b>", "error " + format_percent(error)});
+                        {"<b>" + drawn.title + ".</b>", "error " + to_text(error)});
   }
   out.add_value("reference_noise", truth.noise);
   out.add_csv("figures-17-22", csv_table(table));
   html += html_figure(show("reference", "The reference, path traced", truth.radiance),
                       {"<b>The truth</b>, path traced.", "noise " + format_percent(truth.noise)});
   html += html_figure(show("interreflected", "With shadows and light between surfaces",
-                           draw_interreflected(scene, render_light, params)),
+                           draw_interreflected(scene, render_light, params, sources.pick(16, 128))),
                       {"<b>Beyond the thesis.</b>", "five bands with shadows and light between surfaces"});
   out.add_html(html + "</div>\n");
   const Reference nine = {group[3].radiance, Image(params.width, params.height), 0};
-  const double difference = relative_error(group[2].radiance, nine);
-  out.add_value("classic_to_nine", difference);
-  out.add_html(fmt::format("<p>Figures 19 and 20, the two ways to three bands, differ by {}.</p>\n",
-                           format_percent(difference)));
+  const PictureError difference = measure_picture(group[2].radiance, nine);
+  add_error(out, "classic_to_nine", difference);
+  out.add_html(
+      fmt::format("<p>Figures 19 and 20, the two ways to three bands, differ by {}.</p>\n", to_text(difference)));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "shlight/core/assert.h"
+#include "shlight/report/html.h"
 #include "shlight/truth/path_tracer.h"
 
 namespace shlight {
@@ -78,16 +79,30 @@ Reference trace_reference(const Scene& scene, const Light& light, const RenderPa
   return {std::move(result.radiance), std::move(result.variance), square > 0 ? std::sqrt(variance / square) : 0};
 }
 
-double relative_error(const Image& test, const Reference& reference) {
-  const Image difference = combine(test, reference.radiance, std::minus<float>());
-  const double noise = sum(reference.variance);
-  const double square = sum_of_squares(reference.radiance) - noise;
-  return square > 0 ? std::sqrt(std::max(0.0, sum_of_squares(difference) - noise) / square) : 0;
+PictureError measure_picture(const Image& test, const Reference& reference) {
+  double difference = 0, square = 0, spread = 0;
+  for (std::size_t i = 0; i < test.values.size(); ++i) {
+    const double r = double{reference.radiance.values[i]}, variance = double{reference.variance.values[i]};
+    const double d2 = (double{test.values[i]} - r) * (double{test.values[i]} - r);
+    difference += d2 - variance, square += r * r - variance;
+    // The variance of (error + noise)² is 2 variance² + 4 error² variance.
+    spread += 2 * variance * variance + 4 * std::max(0.0, d2 - variance) * variance;
+  }
+  if (!(square > 0)) return {};
+  return {std::sqrt(std::max(0.0, difference) / square), std::sqrt(2 * std::sqrt(spread) / square)};
 }
 
-double relative_difference(const Reference& a, const Reference& b) {
-  Reference both = {b.radiance, add_images(a.variance, b.variance), 0};
-  return relative_error(a.radiance, both);
+PictureError measure_difference(const Reference& a, const Reference& b) {
+  return measure_picture(a.radiance, {b.radiance, add_images(a.variance, b.variance), 0});
+}
+
+void add_error(PartWriter& out, const std::string& name, const PictureError& error) {
+  out.add_value(name, error.value);
+  out.add_value(name + "_resolution", error.resolution);
+}
+
+std::string to_text(const PictureError& error) {
+  return error.value >= error.resolution ? format_percent(error.value) : "below " + format_percent(error.resolution);
 }
 
 }  // namespace shlight

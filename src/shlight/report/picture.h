@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "shlight/brdf/brdf.h"
@@ -8,6 +9,7 @@
 #include "shlight/image/tone_map.h"
 #include "shlight/light/light.h"
 #include "shlight/render/render.h"
+#include "shlight/report/part.h"
 #include "shlight/scene/scene.h"
 
 // Pictures of the report, drawn and traced so that they can be compared pixel by pixel. Not installed.
@@ -40,10 +42,19 @@ Reference trace_reference(const Scene& scene, const Light& light, const RenderPa
                           int samples, const Progress& progress);
 
 // Root mean square of a picture's error, relative to that of the reference. The reference's own noise, which it knows,
-// is taken out of both: the mean of (test − reference)² is that of the error's square and the variance.
-double relative_error(const Image& test, const Reference& reference);
+// is taken out of both: the mean of (test − reference)² is that of the error's square and the variance. What is left of
+// noise hides errors smaller than `resolution`, two standard deviations of that difference.
+struct PictureError {
+  double value = 0, resolution = 0;
+};
+PictureError measure_picture(const Image& test, const Reference& reference);
 
 // The same between two references, the noise of both taken out.
-double relative_difference(const Reference& a, const Reference& b);
+PictureError measure_difference(const Reference& a, const Reference& b);
+
+void add_error(PartWriter& out, const std::string& name, const PictureError& error);
+
+// "0.35 %", or "below 0.2 %" where noise hides it.
+std::string to_text(const PictureError& error);
 
 }  // namespace shlight

@@ -91,18 +91,16 @@ void make_pair(const Pair& pair, SharedStudio& shared, ReportSources& sources, P
     const auto brdf = make_brdf(pair.material[i]);
     const Image drawn = draw_reflectance(studio, *brdf, kBands);
     truths[i] = trace_material(studio, *brdf, sources, half);
-    const double error = relative_error(drawn, truths[i]);
-    out.add_value(pair.id[i], error);
-    html += html_figure(
-        add_shown(out, studio, pair.id[i], pair.title[i], drawn),
-        {fmt::format("<b>{}.</b>", pair.title[i]),
-         fmt::format("<code>{}</code>, {} bands, error {}", pair.material[i], kBands, format_percent(error))});
+    const PictureError error = measure_picture(drawn, truths[i]);
+    add_error(out, pair.id[i], error);
+    html += html_figure(add_shown(out, studio, pair.id[i], pair.title[i], drawn),
+                        {fmt::format("<b>{}.</b>", pair.title[i]),
+                         fmt::format("<code>{}</code>, {} bands, error {}", pair.material[i], kBands, to_text(error))});
   }
-  const double difference = relative_difference(truths[0], truths[1]);
-  out.add_value("difference", difference);
+  const PictureError difference = measure_difference(truths[0], truths[1]);
+  add_error(out, "difference", difference);
   out.add_html(html + "</div>\n");
-  out.add_html(
-      fmt::format("<p>The two materials themselves, path traced, differ by {}.</p>\n", format_percent(difference)));
+  out.add_html(fmt::format("<p>The two materials themselves, path traced, differ by {}.</p>\n", to_text(difference)));
 }
 
 // One material by three, five and eight bands and path traced.
@@ -112,16 +110,17 @@ void make_row(const ThesisMaterial& material, int first_figure, SharedStudio& sh
   const auto brdf = make_brdf(material.text);
   const Reference truth = trace_material(studio, *brdf, sources, out.progress());
   std::string html = "<div class=\"group four\">\n";
-  HtmlTable table = {{"bands", "relative_error"}, {}};
+  HtmlTable table = {{"bands", "relative_error", "resolution"}, {}};
   for (const int bands : {3, 5, 8}) {
     const Image drawn = draw_reflectance(studio, *brdf, bands);
-    const double error = relative_error(drawn, truth);
+    const PictureError error = measure_picture(drawn, truth);
     const std::string figure = bands == 8 ? "" : fmt::format("Figure {}. ", first_figure + (bands == 5));
     const std::string title = fmt::format("{}{}, {} bands", figure, material.name, bands);
-    out.add_value(fmt::format("bands_{}", bands), error);
-    table.rows.push_back({fmt::format("{}", bands), fmt::format("{:.6g}", error)});
+    add_error(out, fmt::format("bands_{}", bands), error);
+    table.rows.push_back(
+        {fmt::format("{}", bands), fmt::format("{:.6g}", error.value), fmt::format("{:.6g}", error.resolution)});
     html += html_figure(add_shown(out, studio, fmt::format("{}-{}-bands", material.id, bands), title, drawn),
-                        {"<b>" + title + ".</b>", "error " + format_percent(error)});
+                        {"<b>" + title + ".</b>", "error " + to_text(error)});
   }
   out.add_value("reference_noise", truth.noise);
   out.add_csv(material.id, csv_table(table));

@@ -43,9 +43,14 @@ TEST(Report, ErrorsAreWithoutTheReferencesNoise) {
   test.set_rgb(0, 0, {1, 1, 1}), test.set_rgb(1, 0, {2, 2, 2});
   truth.set_rgb(0, 0, {1.5, 1.5, 1.5}), truth.set_rgb(1, 0, {2, 2, 2});
   for (float& v : variance.values) v = 0.01f;
-  EXPECT_NEAR(relative_error(test, {truth, variance, 0}), std::sqrt(0.69 / 18.69), 1e-6);
-  EXPECT_EQ(relative_error(truth, {truth, variance, 0}), 0) << "noise alone is no error";
-  EXPECT_NEAR(relative_difference({test, variance, 0}, {truth, variance, 0}), std::sqrt(0.63 / 18.63), 1e-6);
+  EXPECT_NEAR(measure_picture(test, {truth, variance, 0}).value, std::sqrt(0.69 / 18.69), 1e-6);
+  EXPECT_NEAR(measure_difference({test, variance, 0}, {truth, variance, 0}).value, std::sqrt(0.63 / 18.63), 1e-6);
+  EXPECT_EQ(to_text(measure_picture(test, {truth, variance, 0})), "19 %");
+  const PictureError none = measure_picture(truth, {truth, variance, 0});
+  EXPECT_EQ(none.value, 0) << "noise alone is no error";
+  // Two deviations of a sum of six squares: 2 √(6 · 2 · 0.01²).
+  EXPECT_NEAR(none.resolution, std::sqrt(2 * std::sqrt(12e-4) / 18.69), 1e-6);
+  EXPECT_EQ(to_text(none), "below 6.1 %");
 }
 
 TEST(Report, BlocksAreAveraged) {
@@ -82,7 +87,9 @@ TEST(BasisFigures, BalloonOfDegreeOneIsTwoBalls) {
     // The furthest vertex is a step of the mesh away from the axis.
     EXPECT_NEAR(radius, 0.5, 2e-3);
     furthest = std::max(furthest, std::sqrt(dot(p, p)));
-    if (dot(p, p) > 0.01) EXPECT_GT(dot(vec_cast<double>(balloon.normals[i]), p - center), 0.49) << "points outward";
+    if (dot(p, p) > 0.01) {
+      EXPECT_GT(dot(vec_cast<double>(balloon.normals[i]), p - center), 0.49) << "points outward";
+    }
   }
   EXPECT_NEAR(furthest, 1, 1e-6);
 }

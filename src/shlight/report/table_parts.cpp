@@ -144,7 +144,7 @@ void make_table_4(ReportSources& sources, PartWriter& out) {
   std::string renderer;
   double done = 0;
   for (const TableModel& model : models) {
-    const FrameRow row = measure_frame_row(model.scene, sources.light(), sources.pick(2, 20));
+    const FrameRow row = measure_frame_row(model.scene, sources.light(), sources.pick(1, 20));
     renderer = row.gl_renderer;
     const auto triangles = static_cast<double>(row.triangles);
     table.rows.push_back({escape_xml(model.name), format_count(triangles), or_dash(model.thesis, format_count),
