@@ -67,7 +67,7 @@ void make_figures_17_to_22(ReportSources& sources, PartWriter& out) {
   const Scene& scene = sources.scene(sources.figure_model());
   RenderParams params;
   params.width = sources.pick(240, 400), params.height = params.width * 3 / 4;
-  params.camera = {30, 16, 1.15};
+  params.camera = {30, 16, 1};
   params.show_background = false;
   const RenderLight render_light = make_render_light(light, kMostBands);
   const double exposure = auto_exposure(render_light.coefficients);
