@@ -84,9 +84,9 @@ void make_claim_1(ReportSources& sources, PartWriter& out) {
       kept > 0, kept < std::ssize(lights),
       fmt::format(
           "Three bands hold {:.2f} % of the energy of the clamped cosine. The mean error over all normals stays "
-          "within {} of the largest irradiance under {} of {} lights, and is {} under the worst of them. Where "
+          "within {} of the largest irradiance under {} of {} lights, and is {:.3g} % under the worst of them. Where "
           "little light falls, they are off by up to {} of what there is.",
-          100 * cosine_energy(3), format_percent(kMostMean), kept, lights.size(), format_percent(worst_mean),
+          100 * cosine_energy(3), format_percent(kMostMean), kept, lights.size(), 100 * worst_mean,
           format_percent(worst_local))));
 }
 
