@@ -41,7 +41,9 @@ class ToolReproduce : public ToolTest {};
 class ToolReproduceDrawing : public ToolDrawingTest {};
 
 TEST_F(ToolReproduceDrawing, QuickReportIsWhole) {
-  const ToolRun run = run_tool({"reproduce", "-o", path("report"), "--quick", "--samples", "900", "--json"}, kPatient);
+  const ToolRun run = run_tool(
+      {"reproduce", "-o", path("report"), "--quick", "--samples", "900", "--model", "builtin:sphere", "--json"},
+      kPatient);
   ASSERT_EQ(run.exit_code, 0) << run;
   const auto report = parse(run);
   const std::string page = text_of(path("report/thesis.html"));

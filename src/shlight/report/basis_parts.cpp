@@ -29,7 +29,7 @@ void make_figure_10(ReportSources& sources, PartWriter& out) {
   std::ranges::fill(studio.background.values, 0.015f);
   const Scene scene = make_balloon_scene(kBands);
   const Image radiance = draw_fine(
-      studio, params, [&](const RenderLight& l, const RenderParams& p) { return render_irradiance(scene, l, p); });
+      studio, params, 3, [&](const RenderLight& l, const RenderParams& p) { return render_irradiance(scene, l, p); });
   out.add_html(html_figure(
       out.add_picture("figure-10", make_picture8(radiance, 1.1 * auto_exposure(light->project(1))),
                       "Twenty-five surfaces in five rows, one for each spherical harmonic of five bands"),

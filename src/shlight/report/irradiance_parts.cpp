@@ -30,12 +30,13 @@ Transfer bake_classic(const Scene& scene, int samples) {
   return bake_transfer(scene, params);
 }
 
-std::vector<Drawn> draw_group(const Scene& scene, const RenderLight& light, RenderParams params, int samples) {
+std::vector<Drawn> draw_group(const Scene& scene, const RenderLight& light, RenderParams params, int fine,
+                              int samples) {
   const Transfer transfer = bake_classic(scene, samples);
   std::vector<Drawn> group;
   const auto classic = [&](const char* id, const char* title, int bands) {
     params.bands = bands;
-    group.push_back({id, title, draw_fine(light, params, [&](const RenderLight& l, const RenderParams& p) {
+    group.push_back({id, title, draw_fine(light, params, fine, [&](const RenderLight& l, const RenderParams& p) {
                        return render_transfer(scene, transfer, l, p);
                      })});
   };
@@ -44,7 +45,7 @@ std::vector<Drawn> draw_group(const Scene& scene, const RenderLight& light, Rend
   classic("figure-19", "Figure 19. Three bands, classic", 3);
   params.bands = 3;
   group.push_back({"figure-20", "Figure 20. Three bands, nine coefficients",
-                   draw_fine(light, params, [&](const RenderLight& l, const RenderParams& p) {
+                   draw_fine(light, params, fine, [&](const RenderLight& l, const RenderParams& p) {
                      return render_irradiance(scene, l, p);
                    })});
   classic("figure-21", "Figure 21. Four bands", 4);
@@ -52,13 +53,13 @@ std::vector<Drawn> draw_group(const Scene& scene, const RenderLight& light, Rend
   return group;
 }
 
-Image draw_interreflected(const Scene& scene, const RenderLight& light, RenderParams params, int samples) {
+Image draw_interreflected(const Scene& scene, const RenderLight& light, RenderParams params, int fine) {
   BakeParams bake;
   bake.kind = TransferKind::kInterreflected;
   bake.bands = params.bands = kMostBands;
-  bake.samples = samples;
+  bake.samples = 128;  // enough for a picture
   const Transfer transfer = bake_transfer(scene, bake);
-  return draw_fine(light, params,
+  return draw_fine(light, params, fine,
                    [&](const RenderLight& l, const RenderParams& p) { return render_transfer(scene, transfer, l, p); });
 }
 
@@ -66,15 +67,16 @@ void make_figures_17_to_22(ReportSources& sources, PartWriter& out) {
   const Light& light = sources.light();
   const Scene& scene = sources.scene(sources.figure_model());
   RenderParams params;
-  params.width = sources.pick(240, 400), params.height = params.width * 3 / 4;
+  params.width = sources.pick(160, 400), params.height = params.width * 3 / 4;
   params.camera = {30, 16, 1};
   params.show_background = false;
   const RenderLight render_light = make_render_light(light, kMostBands);
   const double exposure = auto_exposure(render_light.coefficients);
+  const int fine = sources.pick(2, 3);
 
-  const std::vector<Drawn> group = draw_group(scene, render_light, params, sources.params().samples);
+  const std::vector<Drawn> group = draw_group(scene, render_light, params, fine, sources.params().samples);
   const Reference truth = trace_reference(scene, light, params, nullptr, sources.pick(32, 256), out.progress());
-  const Image backdrop = draw_backdrop(scene, render_light, params);
+  const Image backdrop = draw_backdrop(scene, render_light, params, fine);
   const auto show = [&](const std::string& id, const std::string& title, const Image& radiance) {
     return out.add_picture(id, make_picture8(add_images(radiance, backdrop), exposure), title);
   };
@@ -92,9 +94,10 @@ void make_figures_17_to_22(ReportSources& sources, PartWriter& out) {
   out.add_csv("figures-17-22", csv_table(table));
   html += html_figure(show("reference", "The reference, path traced", truth.radiance),
                       {"<b>The truth</b>, path traced.", "noise " + format_percent(truth.noise)});
-  html += html_figure(show("interreflected", "With shadows and light between surfaces",
-                           draw_interreflected(scene, render_light, params, sources.pick(16, 128))),
-                      {"<b>Beyond the thesis.</b>", "five bands with shadows and light between surfaces"});
+  if (!sources.params().quick)
+    html += html_figure(show("interreflected", "With shadows and light between surfaces",
+                             draw_interreflected(scene, render_light, params, fine)),
+                        {"<b>Beyond the thesis.</b>", "five bands with shadows and light between surfaces"});
   out.add_html(html + "</div>\n");
   const Reference nine = {group[3].radiance, Image(params.width, params.height), 0};
   const PictureError difference = measure_picture(group[2].radiance, nine);

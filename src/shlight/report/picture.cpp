@@ -47,18 +47,18 @@ Image average_blocks(const Image& image, int factor) {
   return result;
 }
 
-Image draw_fine(const RenderLight& light, const RenderParams& params, const DrawMethod& draw) {
-  RenderParams fine = params;
-  fine.width *= kFine, fine.height *= kFine;
-  return average_blocks(draw(light, fine).radiance, kFine);
+Image draw_fine(const RenderLight& light, const RenderParams& params, int fine, const DrawMethod& draw) {
+  RenderParams larger = params;
+  larger.width *= fine, larger.height *= fine;
+  return average_blocks(draw(light, larger).radiance, fine);
 }
 
-Image draw_backdrop(const Scene& scene, const RenderLight& light, RenderParams params) {
+Image draw_backdrop(const Scene& scene, const RenderLight& light, RenderParams params, int fine) {
   const DrawMethod draw = [&](const RenderLight& l, const RenderParams& p) { return render_irradiance(scene, l, p); };
   params.show_background = false;
-  const Image without = draw_fine(light, params, draw);
+  const Image without = draw_fine(light, params, fine, draw);
   params.show_background = true;
-  return combine(draw_fine(light, params, draw), without, std::minus<float>());
+  return combine(draw_fine(light, params, fine, draw), without, std::minus<float>());
 }
 
 Image add_images(const Image& a, const Image& b) {

@@ -18,17 +18,16 @@ namespace shlight {
 
 using DrawMethod = std::function<RenderResult(const RenderLight&, const RenderParams&)>;
 
-// Draws kFine times as wide and high and takes the mean of each block: the pixels of an outline are then covered as
-// exactly as a path tracer's, and no error is measured there but the method's. Linear radiance.
-inline constexpr int kFine = 3;
-Image draw_fine(const RenderLight& light, const RenderParams& params, const DrawMethod& draw);
+// Draws `fine` times as wide and high and takes the mean of each block: the pixels of an outline are then covered
+// nearly as exactly as a path tracer's, and hardly an error is measured there but the method's. Linear radiance.
+Image draw_fine(const RenderLight& light, const RenderParams& params, int fine, const DrawMethod& draw);
 
 // The mean of each block of factor x factor pixels; what is left over at the right and at the bottom is left out.
 Image average_blocks(const Image& image, int factor);
 
 // What the light behind the scene adds to pictures that were drawn without it, outlines included: the same for every
 // method, so that it stays out of errors.
-Image draw_backdrop(const Scene& scene, const RenderLight& light, RenderParams params);
+Image draw_backdrop(const Scene& scene, const RenderLight& light, RenderParams params, int fine);
 
 // The sum of two pictures of one size.
 Image add_images(const Image& a, const Image& b);

@@ -23,6 +23,7 @@ struct Studio {
   const Light& light;
   RenderLight render_light;
   RenderParams params;
+  int fine;  // see draw_fine
   Image backdrop;
   double exposure;
 };
@@ -30,14 +31,15 @@ struct Studio {
 Studio make_studio(ReportSources& sources) {
   const Light& light = sources.light();
   RenderParams params;
-  params.width = sources.pick(160, 320), params.height = params.width;
+  params.width = sources.pick(128, 320), params.height = params.width;
   params.camera = {20, 12, 1.1};
   params.show_background = false;
   RenderLight render_light = make_render_light(light, kMaxRenderBands);
   const Scene& scene = sources.scene(kModel);
-  Image backdrop = draw_backdrop(scene, render_light, params);
+  const int fine = sources.pick(2, 3);
+  Image backdrop = draw_backdrop(scene, render_light, params, fine);
   const double exposure = auto_exposure(render_light.coefficients);
-  return {scene, light, std::move(render_light), params, std::move(backdrop), exposure};
+  return {scene, light, std::move(render_light), params, fine, std::move(backdrop), exposure};
 }
 
 // The one of all parts, made by the first that asks for it.
@@ -63,7 +65,7 @@ Image draw_reflectance(const Studio& studio, const Brdf& brdf, int bands) {
   const auto surfaces = make_surface_reflectances(studio.scene, brdf, table);
   RenderParams params = studio.params;
   params.bands = bands;
-  return draw_fine(studio.render_light, params, [&](const RenderLight& light, const RenderParams& p) {
+  return draw_fine(studio.render_light, params, studio.fine, [&](const RenderLight& light, const RenderParams& p) {
     return render_reflectance(studio.scene, surfaces, light, p);
   });
 }
