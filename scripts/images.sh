@@ -169,3 +169,13 @@ done
 oiiotool "${pictures[@]}" --mosaic:pad=8 4x2 -o "$images/approaches.png"
 scripts/bands.py "$shlight" "$PWD"
 ls -l "$images" "$images/layouts" "$images/bands"
+
+# Figures 31 to 38 of the thesis: four materials by 3, 5 and 8 bands and path traced.
+"$shlight" reproduce -o "$work/report"
+thesis=()
+for material in cook-torrance oren-nayar ward-aniso ward; do
+  for kind in 3-bands 5-bands 8-bands reference; do
+    thesis+=("$work/report/$material-$kind.png")
+  done
+done
+oiiotool "${thesis[@]}" --mosaic:pad=8 4x4 --resize 1000x0 -o "$images/thesis.png"

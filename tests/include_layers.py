@@ -12,7 +12,7 @@ import re
 import sys
 
 # Data flows down this list.
-FOLDERS = ["core", "sh", "image", "light", "brdf", "scene", "transfer", "truth", "render"]
+FOLDERS = ["core", "sh", "image", "light", "brdf", "scene", "transfer", "truth", "render", "report"]
 
 # What headers begin with, and the folders that may include them; "tests" are test and benchmark files of any folder.
 # Everybody but sh may format text; tests read the values they expect from JSON.

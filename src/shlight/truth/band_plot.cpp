@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shlight/core/assert.h"
+#include "shlight/truth/svg.h"
 
 namespace shlight {
 namespace {
@@ -14,31 +15,14 @@ namespace {
 constexpr double kWidth = 760, kPlotLeft = 70, kPlotRight = 500, kLegendLeft = 524;
 constexpr double kErrorTop = 48, kErrorBottom = 318, kEnergyTop = 372, kEnergyBottom = 480, kHeight = 528;
 
-// Colours that stand out from white and from nearly black; the page is the reader's.
+// Of the curves, on top of those that all plots share (svg.h).
 constexpr const char* kStyle =
-    ".page{fill:#ffffff}.grid{stroke:#dddddd}.axis{stroke:#666666;fill:none}.ink{fill:#222222}.faint{fill:#666666}"
-    "text{font:12px 'DejaVu Sans',Verdana,sans-serif}.title{font-size:14px;font-weight:bold}"
+    ".title{font-size:14px;font-weight:bold}"
     ".rms{stroke:#2a7fc9}.p99{stroke:#c9752a}.max{stroke:#c23b5a}.light{stroke:#b58a00}.reflectance{stroke:#3f9a5f}"
-    ".curve{fill:none;stroke-width:2}.local{stroke-dasharray:6 4}.windowed{stroke-width:1.2;stroke-dasharray:2 3}"
-    ".tolerance{stroke:#888888;stroke-dasharray:8 3 2 3}"
-    "@media(prefers-color-scheme:dark){.page{fill:#15181c}.grid{stroke:#343a41}.axis{stroke:#9aa3ad}.ink{fill:#e8e8e8}"
-    ".faint{fill:#a9b0b8}.rms{stroke:#5aa9ee}.p99{stroke:#ee9d55}.max{stroke:#f0698a}.light{stroke:#e0b83a}"
-    ".reflectance{stroke:#6cc98c}}";
-
-std::string escape(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&')
-      escaped += "&amp;";
-    else if (c == '<')
-      escaped += "&lt;";
-    else if (c == '>')
-      escaped += "&gt;";
-    else if (static_cast<unsigned char>(c) >= ' ')
-      escaped += c;
-  }
-  return escaped;
-}
+    ".local{stroke-dasharray:6 4}.windowed{stroke-width:1.2;stroke-dasharray:2 3}"
+    ".tolerance{stroke:#888888;stroke-dasharray:8 3 2 3}";
+constexpr const char* kDarkStyle =
+    ".rms{stroke:#5aa9ee}.p99{stroke:#ee9d55}.max{stroke:#f0698a}.light{stroke:#e0b83a}.reflectance{stroke:#6cc98c}";
 
 // One curve: a value for each number of bands from 1 on, and how it is drawn and called.
 struct Curve {
@@ -72,27 +56,17 @@ Panel make_panel(double top, double bottom, const std::vector<Curve>& curves) {
   return {top, bottom, static_cast<int>(curves[0].values.size()), std::min(low, high - 1), high};
 }
 
-std::string text(double x, double y, const char* style, const char* anchor, const std::string& content) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\" text-anchor=\"{}\">{}</text>\n", x, y, style, anchor,
-                     escape(content));
-}
-
-std::string line(double x1, double y1, double x2, double y2, const std::string& style) {
-  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>\n", x1, y1, x2, y2,
-                     style);
-}
-
 std::string draw_axes(const Panel& panel) {
   std::string svg;
   for (int exponent = panel.low; exponent <= panel.high; ++exponent) {
     const double y = panel.y(std::pow(10, exponent));
-    svg += line(kPlotLeft, y, kPlotRight, y, "grid");
-    svg += text(kPlotLeft - 8, y + 4, "ink", "end", fmt::format("{:g} %", 100 * std::pow(10, exponent)));
+    svg += svg_line(kPlotLeft, y, kPlotRight, y, "grid");
+    svg += svg_text(kPlotLeft - 8, y + 4, "ink", "end", fmt::format("{:g} %", 100 * std::pow(10, exponent)));
   }
   const int step = (panel.count + 15) / 16;
   for (int n = 1; n <= panel.count; n += step) {
-    svg += line(panel.x(n), panel.bottom, panel.x(n), panel.bottom + 4, "axis");
-    svg += text(panel.x(n), panel.bottom + 18, "ink", "middle", fmt::format("{}", n));
+    svg += svg_line(panel.x(n), panel.bottom, panel.x(n), panel.bottom + 4, "axis");
+    svg += svg_text(panel.x(n), panel.bottom + 18, "ink", "middle", fmt::format("{}", n));
   }
   return svg + fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}H{3:.1f}\" class=\"axis\"/>\n", kPlotLeft, panel.top,
                            panel.bottom, kPlotRight);
@@ -105,8 +79,8 @@ std::string draw_curve(const Panel& panel, const Curve& curve, double legend_y) 
                         panel.y(std::max(curve.values[i], panel.floor())));
   // Round ends make a single point visible.
   std::string svg = fmt::format("<path d=\"{}\" class=\"curve {}\" stroke-linecap=\"round\"/>\n", path, curve.style);
-  svg += line(kLegendLeft, legend_y - 4, kLegendLeft + 28, legend_y - 4, "curve " + curve.style);
-  return svg + text(kLegendLeft + 36, legend_y, "ink", "start", curve.name);
+  svg += svg_line(kLegendLeft, legend_y - 4, kLegendLeft + 28, legend_y - 4, "curve " + curve.style);
+  return svg + svg_text(kLegendLeft + 36, legend_y, "ink", "start", curve.name);
 }
 
 std::string draw_panel(const Panel& panel, const std::vector<Curve>& curves, double legend_y) {
@@ -146,42 +120,40 @@ std::string make_band_plot(const BandErrors& errors, const BandPlotParams& param
     curves.push_back({"max windowed", "maximum", values_of(errors.shaped, &BandError::max)});
   }
   const Panel panel = make_panel(kErrorTop, kErrorBottom, curves);
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" height=\"{1:g}\">\n"
-      "<style>{2}</style>\n<rect width=\"{0:g}\" height=\"{1:g}\" class=\"page\"/>\n",
-      kWidth, kHeight, kStyle);
-  svg += text(kPlotLeft, 26, "ink title", "start", params.title);
+  std::string svg = svg_begin(kWidth, kHeight, kStyle, kDarkStyle);
+  svg += svg_text(kPlotLeft, 26, "ink title", "start", params.title);
   svg += draw_axes(panel);
   // Three curves a group, each group under its heading.
   const std::string headings[] = {"error, of the largest", "error, of the local", "of the largest, " + params.windowed};
   double y = kErrorTop + 10;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     if (i % 3 == 0) {
-      svg += text(kLegendLeft, y, "faint", "start", headings[i / 3]);
+      svg += svg_text(kLegendLeft, y, "faint", "start", headings[i / 3]);
       y += 19;
     }
     svg += draw_curve(panel, curves[i], y);
     y += i % 3 == 2 ? 27 : 19;
   }
   if (params.tolerance > panel.floor() && panel.y(params.tolerance) > panel.top) {
-    svg += line(kPlotLeft, panel.y(params.tolerance), kPlotRight, panel.y(params.tolerance), "tolerance");
+    svg += svg_line(kPlotLeft, panel.y(params.tolerance), kPlotRight, panel.y(params.tolerance), "tolerance");
     const auto enough = find_enough_bands(errors.bands, band_measure(params.measure).value, params.tolerance);
-    if (enough) svg += line(panel.x(*enough), panel.y(params.tolerance), panel.x(*enough), panel.bottom, "tolerance");
-    svg += line(kLegendLeft, y - 4, kLegendLeft + 28, y - 4, "tolerance");
-    svg += text(kLegendLeft + 36, y, "ink", "start",
-                fmt::format("{:.3g} %: {}", 100 * params.tolerance,
-                            enough ? fmt::format("{} bands", *enough) : std::string("not reached")));
-    svg += text(kLegendLeft + 36, y + 15, "faint", "start", band_measure(params.measure).meaning);
+    if (enough)
+      svg += svg_line(panel.x(*enough), panel.y(params.tolerance), panel.x(*enough), panel.bottom, "tolerance");
+    svg += svg_line(kLegendLeft, y - 4, kLegendLeft + 28, y - 4, "tolerance");
+    svg += svg_text(kLegendLeft + 36, y, "ink", "start",
+                    fmt::format("{:.3g} %: {}", 100 * params.tolerance,
+                                enough ? fmt::format("{} bands", *enough) : std::string("not reached")));
+    svg += svg_text(kLegendLeft + 36, y + 15, "faint", "start", band_measure(params.measure).meaning);
   }
 
   const std::vector<Curve> energies = {
       {"light", "light", shares_of(errors.light_energy, errors.light_total)},
       {"reflectance", "reflectance", shares_of(errors.reflectance_energy, errors.reflectance_total)}};
   const Panel energy = make_panel(kEnergyTop, kEnergyBottom, energies);
-  svg += text(kPlotRight, kErrorBottom + 36, "faint", "end", "bands n: error with the degrees 0 … n−1");
-  svg += text(kLegendLeft, kEnergyTop + 10, "faint", "start", "energy in the n-th band alone");
+  svg += svg_text(kPlotRight, kErrorBottom + 36, "faint", "end", "bands n: error with the degrees 0 … n−1");
+  svg += svg_text(kLegendLeft, kEnergyTop + 10, "faint", "start", "energy in the n-th band alone");
   svg += draw_panel(energy, energies, kEnergyTop + 29);
-  svg += text(kPlotRight, kEnergyBottom + 36, "faint", "end", "band n: degree n−1");
+  svg += svg_text(kPlotRight, kEnergyBottom + 36, "faint", "end", "band n: degree n−1");
   return svg + "</svg>\n";
 }
 
