@@ -29,6 +29,7 @@ void add_demo(CLI::App& program, Run& run);
 void add_convert_map(CLI::App& program, Run& run);
 void add_compare(CLI::App& program, Run& run);
 void add_bands(CLI::App& program, Run& run);
+void add_view(CLI::App& program, Run& run);
 
 // The help of a LIGHT argument, and of a MODEL.
 extern const char* const kLightHelp;

@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
   shlight::app::add_convert_map(program, run);
   shlight::app::add_compare(program, run);
   shlight::app::add_bands(program, run);
+  shlight::app::add_view(program, run);
 
   const auto fail = [&](std::string text) {
     // One line, whatever the name of a file holds.

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "shlight/image/image.h"
+#include "shlight/render/targets.h"
 #include "shlight/truth/image_error.h"
 #include "task.h"
 
@@ -25,11 +27,13 @@ class Difference {
   void cancel() { task_.cancel(); }
   bool busy() const { return task_.busy(); }
   const Result* result() const { return result_.get(); }
+  const PictureTexture* texture() const { return texture_ ? &*texture_ : nullptr; }
   const std::string& wanted() const { return task_.wanted(); }
 
  private:
   Task<std::shared_ptr<const Result>> task_;
   std::shared_ptr<const Result> result_;
+  std::optional<PictureTexture> texture_;
 };
 
 }  // namespace shlight::viewer

@@ -22,7 +22,8 @@ Model load_model(const std::string& name, int serial) {
   return model;
 }
 
-void load_lighting(const std::string& name, int serial, const Task<Lighting>::Publish& publish, const Progress& progress) {
+void load_lighting(const std::string& name, int serial, const Task<Lighting>::Publish& publish,
+                   const Progress& progress) {
   constexpr int kQuickWidth = 512, kFullWidth = 2048;
   const auto loaded = std::make_shared<const LoadedLight>(load_light(name));
   report_progress(progress, 0.1);

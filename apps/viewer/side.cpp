@@ -50,7 +50,8 @@ void trace(const ModelAsset& model, const LightAsset& light, PathTraceParams par
   params.samples = kReplicates;
   for (const int smaller : {8, 4}) {
     params.width = std::max(width / smaller, 1), params.height = std::max(height / smaller, 1);
-    PathTraceResult quick = trace_paths(model.content.scene, *light.loaded->light, params, [&](double) { return progress(0); });
+    PathTraceResult quick =
+        trace_paths(model.content.scene, *light.loaded->light, params, [&](double) { return progress(0); });
     quick.samples = 0;  // pixels are larger than those that are asked for
     publish(std::move(quick));
   }
@@ -103,7 +104,8 @@ void Side::request_tables(const Subject& subject, const Look& look) {
   if (hybrid) light = {shaped_light(subject, look, look.bands), subject.light->drawn.background};
   table_.request(
       key,
-      [key, model = subject.model, look, hybrid, light = std::move(light)](const auto& publish, const Progress& progress) {
+      [key, model = subject.model, look, hybrid, light = std::move(light)](const auto& publish,
+                                                                           const Progress& progress) {
         ReflectanceTableParams params;
         params.bands = look.bands;
         params.threads = worker_threads();
@@ -144,7 +146,8 @@ void Side::request_bake(const Subject& subject, const Look& look) {
           const bool last = samples == look.samples;
           if (!last && (is_exact || (look.samples > 0 && samples >= look.samples))) continue;
           params.samples = is_exact ? 0 : samples;
-          auto transfer = std::make_shared<const Transfer>(bake_transfer(model->content.scene, params, watch(progress)));
+          auto transfer =
+              std::make_shared<const Transfer>(bake_transfer(model->content.scene, params, watch(progress)));
           publish(std::make_shared<const BakedTransfer>(BakedTransfer{key, transfer, last}));
           if (last) break;
         }
@@ -223,7 +226,8 @@ bool Side::build_renderer(const Subject& subject, const Look& look) {
     if (subject.model->is_baked && content.info.pca)
       renderer_.emplace(TransferRenderer(*content.info.pca, resize_bands(light, content.info.pca->bands)));
     else
-      renderer_.emplace(TransferRenderer(*transfer_->transfer, light, subject.model->is_baked ? content.info.bits : 32));
+      renderer_.emplace(
+          TransferRenderer(*transfer_->transfer, light, subject.model->is_baked ? content.info.bits : 32));
     bytes_ = transfer_->transfer->coefficients.size() * sizeof(float);
   } else if (tables_ready) {
     renderer_.emplace(ReflectanceRenderer(tables_->surfaces, light, look.shade, tables_->cubes, scale_.unit));
@@ -291,7 +295,12 @@ void Side::draw(const Subject& subject, const Settings& settings, const Look& lo
     return;
   }
   showing_trace_ = false;
-  if (reference) build_renderer(subject, {.method = Method::kIrradiance, .bands = look.bands, .window = look.window});
+  if (reference) {  // until there are paths
+    Look plain = look;
+    plain.method = Method::kIrradiance;
+    plain.show = Show::kLit;
+    build_renderer(subject, plain);
+  }
   if (!renderer_) return;
   refresh_light(subject, look);
   if (!frame_ || frame_->width() != width_ || frame_->height() != height_) frame_.emplace(width_, height_);

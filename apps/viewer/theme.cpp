@@ -15,8 +15,8 @@ constexpr std::array kTextFonts = {"/usr/share/fonts/truetype/lato/Lato-Medium.t
 constexpr std::array kHeadingFonts = {"/usr/share/fonts/truetype/lato/Lato-Bold.ttf",
                                       "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"};
 // Latin with accents, Greek, dashes and dots, arrows, mathematics.
-constexpr ImWchar kRanges[] = {0x20, 0x17f, 0x370, 0x3ff, 0x2010, 0x2027, 0x2070, 0x209f,
-                               0x2190, 0x21ff, 0x2200, 0x22ff, 0};
+constexpr ImWchar kRanges[] = {0x20,   0x17f,  0x370,  0x3ff,  0x2010, 0x2027, 0x2070,
+                               0x209f, 0x2190, 0x21ff, 0x2200, 0x22ff, 0};
 
 template <std::size_t kCount>
 ImFont* load_font(const std::array<const char*, kCount>& files, float size) {
