@@ -73,7 +73,7 @@ void light_panel(Studio& studio) {
   if (s.light.starts_with("builtin:")) sky_knobs(s.light);
   // The heading of what the light's front has been turned to.
   const Vec3d front = s.rotate_light({0, 0, -1});
-  double degrees = std::atan2(-front.x, -front.z) * 180 / std::numbers::pi;
+  double degrees = std::round(std::atan2(-front.x, -front.z) * 180 / std::numbers::pi * 100) / 100 + 0.0;
   if (slider("turned", degrees, -180, 180, "%.0f°"))
     s.rotate_light = rotation_about_y(degrees * std::numbers::pi / 180);
   hint("About the vertical. Drag in the picture with the right button to turn the light freely.");

@@ -150,7 +150,7 @@ void look_panel(Studio& studio) {
   ImGui::Checkbox("stripe negative light", &look.mark_negative);
 }
 
-void picture_panel(Studio& studio, Wishes& wishes) {
+void picture_panel(Studio& studio) {
   if (!section("Picture")) return;
   Settings& s = studio.settings;
   slider("exposure", s.exposure, -6, 6, "%+.1f EV");
@@ -162,6 +162,13 @@ void picture_panel(Studio& studio, Wishes& wishes) {
   ImGui::Checkbox("insight", &s.insight);
   ImGui::SameLine();
   ImGui::Checkbox("times", &s.timing);
+}
+
+float wish_buttons_height() {
+  return 3 * ImGui::GetFrameHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
+}
+
+void wish_buttons(Studio& studio, Wishes& wishes) {
   const float half = 0.5f * (ImGui::GetContentRegionAvail().x - 4);
   if (ImGui::Button("save picture", {half, 0})) wishes.save_png = true;
   ImGui::SameLine(0, 4);
@@ -171,7 +178,7 @@ void picture_panel(Studio& studio, Wishes& wishes) {
   ImGui::SameLine(0, 4);
   if (ImGui::Button("export light", {half, 0})) wishes.export_coefficients = true;
   hint("The light's coefficients as they are drawn, as a JSON file");
-  if (ImGui::Button("keys", {half, 0})) s.keys = !s.keys;
+  if (ImGui::Button("keys", {half, 0})) studio.settings.keys = !studio.settings.keys;
   ImGui::SameLine(0, 4);
   if (ImGui::Button("reset", {half, 0})) wishes.reset = true;
 }

@@ -128,11 +128,15 @@ void timing_overlay(const Studio& studio, const FrameTimes& times, const Layout&
 void controls(Studio& studio, const Layout& layout, Wishes& wishes) {
   ImGui::SetNextWindowPos({0, 0});
   ImGui::SetNextWindowSize({layout.left, layout.height});
-  ImGui::Begin("controls", nullptr, kPanel & ~ImGuiWindowFlags_NoScrollbar);
+  ImGui::Begin("controls", nullptr, kPanel);
+  ImGui::BeginChild("settings", {0, -wish_buttons_height()});
   scene_panel(studio);
   light_panel(studio);
   look_panel(studio);
-  picture_panel(studio, wishes);
+  picture_panel(studio);
+  ImGui::EndChild();
+  ImGui::Separator();
+  wish_buttons(studio, wishes);
   ImGui::End();
 }
 

@@ -27,7 +27,9 @@ Layout make_layout(const Settings& settings, int width, int height, double scale
 void scene_panel(Studio& studio);
 void light_panel(Studio& studio);
 void look_panel(Studio& studio);
-void picture_panel(Studio& studio, Wishes& wishes);
+void picture_panel(Studio& studio);
+void wish_buttons(Studio& studio, Wishes& wishes);  // what can be taken along
+float wish_buttons_height();
 void insight_panel(Studio& studio, Insight& insight, const Layout& layout);
 void viewport(Studio& studio, const Layout& layout);
 

@@ -67,8 +67,8 @@ class Studio {
 
   Settings initial_;
   Recent recent_;
-  Task<Model> model_task_;
-  Task<Lighting> light_task_;
+  Task<Model> model_task_ = Task<Model>(false);
+  Task<Lighting> light_task_ = Task<Lighting>(false);
   int serial_ = 0;
   std::string model_wanted_, light_wanted_;
   Subject subject_;

@@ -59,8 +59,8 @@ void set_colors(ImGuiStyle& style) {
   c[ImGuiCol_ButtonHovered] = field_hovered;
   c[ImGuiCol_ButtonActive] = field_active;
   c[ImGuiCol_CheckMark] = kAccent;
-  c[ImGuiCol_SliderGrab] = with_alpha(kAccent, 0.8f);
-  c[ImGuiCol_SliderGrabActive] = kAccent;
+  c[ImGuiCol_SliderGrab] = with_alpha(kAccent, 0.55f);
+  c[ImGuiCol_SliderGrabActive] = with_alpha(kAccent, 0.8f);
   c[ImGuiCol_Separator] = {1, 1, 1, 0.07f};
   c[ImGuiCol_ScrollbarBg] = {0, 0, 0, 0};
   c[ImGuiCol_ScrollbarGrab] = {1, 1, 1, 0.12f};
@@ -79,8 +79,8 @@ void apply_theme(double scale) {
   style.WindowRounding = 0, style.ChildRounding = 6, style.FrameRounding = 5, style.GrabRounding = 4;
   style.PopupRounding = 7, style.ScrollbarRounding = 6;
   style.WindowBorderSize = 0, style.FrameBorderSize = 0, style.PopupBorderSize = 1;
-  style.WindowPadding = {14, 12}, style.FramePadding = {9, 5}, style.ItemSpacing = {8, 7};
-  style.ItemInnerSpacing = {7, 5}, style.ScrollbarSize = 10, style.GrabMinSize = 11;
+  style.WindowPadding = {14, 10}, style.FramePadding = {9, 4}, style.ItemSpacing = {8, 6};
+  style.ItemInnerSpacing = {7, 5}, style.ScrollbarSize = 10, style.GrabMinSize = 7;
   style.ScaleAllSizes(static_cast<float>(scale));
   const auto size = [scale](float pixels) { return std::round(pixels * static_cast<float>(scale)); };
   ImGui::GetIO().Fonts->Clear();

@@ -48,6 +48,7 @@ class Viewer {
       // The first model and light must be there: without them there is no window to show a message in.
       if (!studio_.ready() && !studio_.last_error().empty()) throw Error(studio_.last_error());
       const bool scripted = !script_.ended() || !params_.screenshot.empty();
+      if (!scripted && !params_.script.empty()) return;  // the script has ended
       if (scripted && !run_script()) return;
       // A frame or two more than events ask for, so that what they open is drawn.
       constexpr int kAfterEvent = 3;

@@ -141,6 +141,11 @@ Image8 WindowTarget::read(int width, int height) {
   return picture;
 }
 
+void WindowTarget::forget_errors() {
+  while (glGetError() != GL_NO_ERROR) {
+  }
+}
+
 PictureTexture::PictureTexture(const Image8& picture)
     : width_(picture.width), height_(picture.height), texture_(make_target_texture(GL_RGBA8, width_, height_)) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
