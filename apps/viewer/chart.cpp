@@ -91,7 +91,7 @@ void log_curves(const char* id, std::span<const Curve> curves, float height, int
   }
 }
 
-void bars(const char* id, std::span<const double> values, ImVec4 color, float height, int marked) {
+void bars(const char* id, const char* axis, std::span<const double> values, ImVec4 color, float height, int marked) {
   const Area all = begin_chart(id, height);
   if (values.empty()) return;
   double low = 0, high = 0;
@@ -111,11 +111,12 @@ void bars(const char* id, std::span<const double> values, ImVec4 color, float he
     draw.AddRectFilled({x + 0.18f * step, std::min(zero, y)}, {x + 0.82f * step, std::max(zero, y) + 1},
                        packed(color, is_marked ? 1.0f : 0.7f), 2);
     const std::string text = std::to_string(i);
-    write({x + 0.5f * (step - ImGui::CalcTextSize(text.c_str()).x), area.max.y + 0.2f * line},
-          is_marked ? kAccent : kFaint, text);
+    if (step > 1.2f * line || (i % 5 == 0 && values.size() > 12))
+      write({x + 0.5f * (step - ImGui::CalcTextSize(text.c_str()).x), area.max.y + 0.2f * line},
+            is_marked ? kAccent : kFaint, text);
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     if (ImGui::IsItemHovered() && mouse.x >= x && mouse.x < x + step)
-      ImGui::SetTooltip("l = %d: %.4g", static_cast<int>(i), values[i]);
+      ImGui::SetTooltip("%s %zu: %.4g", axis, i, values[i]);
   }
 }
 

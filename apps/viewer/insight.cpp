@@ -12,6 +12,7 @@
 #include "shlight/light/window_name.h"
 #include "shlight/render/background.h"
 #include "shlight/scene/balloon.h"
+#include "shlight/scene/pick.h"
 
 namespace shlight::viewer {
 namespace {
@@ -78,6 +79,29 @@ void Insight::draw_balloon(const Camera& camera, int width, int height) {
   seen.azimuth = camera.azimuth, seen.elevation = camera.elevation;
   const Extent ball;  // balloons have radius 1
   balloon_frame_->draw({*balloon_, ball, *balloon_renderer_, nullptr, {}}, {seen, {}, 0, ToneCurve::kFilmic});
+}
+
+void Insight::point(const Subject& subject, const Side& side, const Settings& settings, double x, double y,
+                    double aspect) {
+  at_pointer_.reset();
+  const Transfer* transfer = side.transfer();
+  const ModelAsset& model = *subject.model;
+  if (!transfer || transfer->num_vertices() != model.vertices) return;
+  const auto picked = pick_vertex(model.content.scene, make_view(settings.camera, model.extent, aspect), x, y);
+  if (!picked) return;
+  AtPointer at = {picked->vertex, {}, {}};
+  const RgbCoefficients light = rotate(settings.rotate_light, resize_bands(side.light(), transfer->bands));
+  const auto n = static_cast<std::size_t>(num_coefficients(transfer->bands));
+  const auto channels = static_cast<std::size_t>(transfer->channels);
+  const auto channel = [&](std::size_t c) {
+    return &transfer->coefficients[(picked->vertex * channels + c % channels) * n];
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    at.transfer.push_back(double{channel(channels / 2)[i]});
+    at.radiance +=
+        Rgb{light[i].r * double{channel(0)[i]}, light[i].g * double{channel(1)[i]}, light[i].b * double{channel(2)[i]}};
+  }
+  at_pointer_ = std::move(at);
 }
 
 bool Insight::update(const Subject& subject, const Look& look, const Camera& camera, int width, int height) {

@@ -28,6 +28,14 @@ class Insight {
   const PictureTexture* reconstructed() const { return reconstructed_ ? &*reconstructed_ : nullptr; }
   // The balloon, rows from the bottom; 0 until it is there.
   unsigned balloon() const { return balloon_frame_ ? balloon_frame_->texture() : 0; }
+  // The transfer of the vertex under the pointer, of green where it has colours; empty where there is none.
+  struct AtPointer {
+    std::size_t vertex = 0;
+    std::vector<double> transfer;
+    Rgb radiance;  // of white, in the light's unit
+  };
+  void point(const Subject& subject, const Side& side, const Settings& settings, double x, double y, double aspect);
+  const std::optional<AtPointer>& at_pointer() const { return at_pointer_; }
   bool busy() const { return error_task_.busy() || map_task_.busy(); }
 
  private:
@@ -47,6 +55,7 @@ class Insight {
   std::optional<SurfaceRenderer> balloon_renderer_;
   std::optional<FrameRenderer> balloon_frame_;
   std::string balloon_key_;
+  std::optional<AtPointer> at_pointer_;
 };
 
 }  // namespace shlight::viewer

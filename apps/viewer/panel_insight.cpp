@@ -72,10 +72,17 @@ void insight_panel(Studio& studio, Insight& insight, const Layout& layout) {
       log_curves("##energy", curves, 0.85f * chart, look.bands - 1);
     }
   }
+  if (const auto& at = insight.at_pointer()) {
+    if (section("Transfer of the vertex under the pointer")) {
+      bars("##transfer", "coefficient", at->transfer, kCool, 0.85f * chart, -1);
+      ImGui::TextDisabled("vertex %zu; white leaves %.3g %.3g %.3g there", at->vertex, at->radiance.r, at->radiance.g,
+                          at->radiance.b);
+    }
+  }
   if (section("Â: what a diffuse surface keeps of each degree", false)) {
     std::vector<double> kept;
     for (int l = 0; l < kMaxRenderBands; ++l) kept.push_back(cosine_lobe_hat(l));
-    bars("##cosine", kept, kCool, 0.85f * chart, look.show == Show::kDegree ? look.degree : -1);
+    bars("##cosine", "degree", kept, kCool, 0.85f * chart, look.show == Show::kDegree ? look.degree : -1);
   }
 }
 

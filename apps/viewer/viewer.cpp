@@ -77,6 +77,7 @@ class Viewer {
     }
     const auto before_panels = Clock::now();
     window_.begin_frame();
+    point_out(layout);
     keys();
     Wishes wishes;
     draw_panels(studio_, insight_, times_, layout, wishes);
@@ -91,6 +92,18 @@ class Viewer {
     if (studio_.ready() && first_picture_ms_ == 0) first_picture_ms_ = ms_since(started_);
     times_.add({ms_since(start), own});
     awake_ = changed ? 2 : std::max(awake_ - 1, 0);
+  }
+
+  // Tells what the pointer is over.
+  void point_out(const Layout& layout) {
+    if (layout.right <= 0 || !studio_.ready()) return;
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const double width = std::max(layout.picture_width(), 1.0f), height = layout.height;
+    const double x = 2 * (mouse.x - layout.left) / width - 1, y = 1 - 2 * mouse.y / height;
+    const ImVec2 moved = ImGui::GetIO().MouseDelta;
+    if (moved.x == 0 && moved.y == 0 && insight_.at_pointer()) return;
+    if (ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1) || std::abs(x) > 1 || std::abs(y) > 1) return;
+    insight_.point(studio_.subject(), studio_.side(studio_.settings.side), studio_.settings, x, y, width / height);
   }
 
   static Wishes merged(const Wishes& a, const Wishes& b) {
