@@ -70,6 +70,9 @@ void light_panel(Studio& studio) {
     ImGui::EndCombo();
   }
   hint("Or drop a file on the window: .hdr .exr .dds …, or coefficients (.json)");
+  if (studio.loading_light() && (!studio.ready() || studio.subject().light->name != s.light) &&
+      !s.light.starts_with("builtin:"))
+    ImGui::TextColored(kAccent, "loading …");
   if (s.light.starts_with("builtin:")) sky_knobs(s.light);
   // The heading of what the light's front has been turned to.
   const Vec3d front = s.rotate_light({0, 0, -1});

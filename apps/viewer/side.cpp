@@ -97,8 +97,7 @@ const GpuScene& GpuModel::get(bool tangents, bool colors) {
 
 void Side::request_tables(const Subject& subject, const Look& look) {
   const std::string key = table_key(subject, look);
-  if (tables_ && tables_->key == key) return;
-  if (key == cancelled_) return;
+  if ((tables_ && tables_->key == key) || key == cancelled_ || key == table_.wanted()) return;
   const bool hybrid = look.method == Method::kHybrid;
   RenderLight light;
   if (hybrid) light = {shaped_light(subject, look, look.bands), subject.light->drawn.background};
@@ -317,6 +316,10 @@ void Side::draw(const Subject& subject, const Settings& settings, const Look& lo
 unsigned Side::texture() const {
   if (showing_trace_) return traced_picture_->texture();
   return frame_ ? frame_->texture() : 0;
+}
+
+bool Side::has_picture() const {
+  return showing_trace_ || frame_;
 }
 
 Image8 Side::read_picture() const {

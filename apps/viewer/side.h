@@ -44,6 +44,7 @@ class Side {
 
   // Of the picture drawn last: RGBA8, rows from the bottom; 0 where there is none.
   unsigned texture() const;
+  bool has_picture() const;  // needed by these
   Image8 read_picture() const;
   Image read_radiance() const;
 

@@ -157,7 +157,7 @@ bool Studio::settled(int samples) const {
     if (!side(which).settled(look)) return false;
     if (look.method == Method::kReference && side(which).traced_samples() < samples) return false;
   }
-  return settings.compare != Compare::kDifference || difference_.result();
+  return settings.compare != Compare::kDifference || difference_fits();
 }
 
 bool Studio::busy() const {
@@ -166,7 +166,10 @@ bool Studio::busy() const {
 }
 
 Image8 Studio::picture() const {
-  if (settings.compare == Compare::kDifference && difference_.result()) return difference_.result()->map;
+  for (const int which : {0, 1})
+    if (settings.shows(which) && !side(which).has_picture())
+      throw Error("picture", "is not there yet", "a moment later");
+  if (settings.compare == Compare::kDifference && difference_fits()) return difference_.result()->map;
   Image8 picture = side(settings.side).read_picture();
   if (settings.compare != Compare::kSplit) return picture;
   picture = side(0).read_picture();
@@ -181,6 +184,7 @@ Image8 Studio::picture() const {
 }
 
 Image Studio::radiance() const {
+  if (!side(settings.side).has_picture()) throw Error("picture", "is not there yet", "a moment later");
   return side(settings.side).read_radiance();
 }
 

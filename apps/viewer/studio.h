@@ -39,13 +39,15 @@ class Studio {
   Side& side(int which) { return sides_[static_cast<std::size_t>(which)]; }
   const Side& side(int which) const { return sides_[static_cast<std::size_t>(which)]; }
   const Difference& difference() const { return difference_; }
+  // Whether that is of what is drawn now.
+  bool difference_fits() const { return difference_.result() && difference_.result_key().starts_with(drawn_key_); }
   Recent& recent() { return recent_; }
   int width() const { return width_; }
   int height() const { return height_; }
   bool loading_model() const { return model_task_.busy(); }
   bool loading_light() const { return light_task_.busy(); }
 
-  // The picture as shown, of one side or both; and as linear radiance.
+  // The picture as shown, of one side or both; and as linear radiance. Throw Error before anything is drawn.
   Image8 picture() const;
   Image radiance() const;
 

@@ -75,6 +75,7 @@ class Viewer {
                                 static_cast<int>(0.62 * balloon)) ||
                 changed;
     }
+    set_title();
     const auto before_panels = Clock::now();
     window_.begin_frame();
     point_out(layout);
@@ -92,6 +93,15 @@ class Viewer {
     if (studio_.ready() && first_picture_ms_ == 0) first_picture_ms_ = ms_since(started_);
     times_.add({ms_since(start), own});
     awake_ = changed ? 2 : std::max(awake_ - 1, 0);
+  }
+
+  void set_title() {
+    const Settings& s = studio_.settings;
+    const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+    std::string title = name(s.model) + " under " + name(s.light) + " - shlight";
+    if (title == title_) return;
+    window_.set_title(title);
+    title_ = std::move(title);
   }
 
   // Tells what the pointer is over.
@@ -352,6 +362,7 @@ class Viewer {
   std::map<int, std::function<void()>> key_actions_;
   int pressed_ = 0;   // by a script
   int progress_ = 0;  // within its line, in frames
+  std::string title_;
   std::filesystem::path wanted_screenshot_;
   bool taken_ = false;
   int awake_ = 3;  // frames to draw at once

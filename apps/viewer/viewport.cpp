@@ -85,21 +85,17 @@ void draw_pictures(const Studio& studio, const Rect& rect, float scale) {
 }
 
 void draw_difference(const Studio& studio, const Rect& rect, float scale) {
-  const PictureTexture* map = studio.difference().texture();
-  const Difference::Result* result = studio.difference().result();
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  std::string text = "comparing A with B …";
-  if (map && result) {
-    const float zoom =
-        std::min(rect.width() / static_cast<float>(map->width()), rect.height() / static_cast<float>(map->height()));
-    const float width = zoom * static_cast<float>(map->width()), height = zoom * static_cast<float>(map->height());
-    const ImVec2 min = {rect.min.x + 0.5f * (rect.width() - width), rect.min.y + 0.5f * (rect.height() - height)};
-    draw.AddImage(id_of(map->texture()), min, {min.x + width, min.y + height});
-    const ImageError& e = result->error;
-    text =
-        fmt::format("FLIP {:.4f}   off by {:.3g} % (root mean square)   SSIM {:.4f}   at {} x {} pixels{}", e.flip,
-                    100 * e.relative, e.ssim, result->width, result->height, studio.difference().busy() ? "   …" : "");
-  }
+  const Difference::Result& result = *studio.difference().result();
+  const PictureTexture& map = *studio.difference().texture();
+  const auto width = static_cast<float>(map.width()), height = static_cast<float>(map.height());
+  const float zoom = std::min(rect.width() / width, rect.height() / height);
+  const ImVec2 min = {rect.min.x + 0.5f * (rect.width() - zoom * width),
+                      rect.min.y + 0.5f * (rect.height() - zoom * height)};
+  ImGui::GetWindowDrawList()->AddImage(id_of(map.texture()), min, {min.x + zoom * width, min.y + zoom * height});
+  const ImageError& e = result.error;
+  const std::string text =
+      fmt::format("FLIP {:.4f}   off by {:.3g} % (root mean square)   SSIM {:.4f}   at {} x {} pixels", e.flip,
+                  100 * e.relative, e.ssim, result.width, result.height);
   const float margin = 12 * scale;
   label(text, studio.side(1), {rect.min.x + margin, rect.min.y + margin}, 0, scale);
 }
@@ -150,7 +146,7 @@ void viewport(Studio& studio, const Layout& layout) {
                    ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PopStyleVar(2);
   navigate(studio, rect, layout.scale);
-  if (studio.settings.compare == Compare::kDifference)
+  if (studio.settings.compare == Compare::kDifference && studio.difference_fits())
     draw_difference(studio, rect, layout.scale);
   else if (studio.ready())
     draw_pictures(studio, rect, layout.scale);
