@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "shlight/brdf/make_brdf.h"
@@ -282,7 +283,7 @@ bool Side::update(const Subject& subject, const Settings& settings, const Look& 
   return changed;
 }
 
-void Side::draw(const Subject& subject, const Settings& settings, const Look& look) {
+double Side::draw(const Subject& subject, const Settings& settings, const Look& look, int coarseness) {
   const bool reference = look.method == Method::kReference;
   if (reference && traced_.radiance.num_pixels() > 0) {
     if (!traced_picture_ || traced_picture_->width() != width_ || traced_picture_->height() != height_)
@@ -291,7 +292,7 @@ void Side::draw(const Subject& subject, const Settings& settings, const Look& lo
     traced_picture_->set(traced_.radiance, scale.unit);
     traced_picture_->draw(exposed(scale, {{}, {}, settings.exposure, settings.curve}), settings.curve);
     showing_trace_ = true;
-    return;
+    return 0;
   }
   showing_trace_ = false;
   if (reference) {  // until there are paths
@@ -300,17 +301,24 @@ void Side::draw(const Subject& subject, const Settings& settings, const Look& lo
     plain.show = Show::kLit;
     build_renderer(subject, plain);
   }
-  if (!renderer_) return;
+  if (!renderer_) return 0;
   refresh_light(subject, look);
-  if (!frame_ || frame_->width() != width_ || frame_->height() != height_) frame_.emplace(width_, height_);
+  const int width = std::max(width_ / coarseness, 1), height = std::max(height_ / coarseness, 1);
+  const auto same_size = frames_.find(coarseness);
+  if (same_size != frames_.end() && (same_size->second.width() != width || same_size->second.height() != height))
+    frames_.clear();
+  frame_ = &frames_.try_emplace(coarseness, width, height).first->second;
   const bool lit = built_show_ == Show::kLit || built_show_ == Show::kDegree;
   FrameParams frame = {settings.camera, settings.rotate_light, lit ? settings.exposure : 0,
                        lit ? settings.curve : ToneCurve::kNone};
   const float bright = look.mark_negative ? static_cast<float>(1 / exposed(scale_, frame)) : 0;
   mark_negative(*renderer_, {bright, 0, bright});
   const GpuScene& scene = subject.gpu->get(needs_tangents(*renderer_), built_show_ != Show::kVisibility);
+  const auto start = std::chrono::steady_clock::now();
   frame_->draw({scene, subject.model->extent, *renderer_, settings.background && lit ? &*background_ : nullptr, scale_},
                frame);
+  frame_->finish();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 unsigned Side::texture() const {

@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -48,8 +49,8 @@ class Studio {
   bool loading_light() const { return light_task_.busy(); }
 
   // The picture as shown, of one side or both; and as linear radiance. Throw Error before anything is drawn.
-  Image8 picture() const;
-  Image radiance() const;
+  Image8 picture();
+  Image radiance();
 
   // What to tell, the newest first, each for a few seconds.
   struct Message {
@@ -66,6 +67,9 @@ class Studio {
   void take_model();
   void take_light();
   void request_difference();
+  void draw_side(int which);
+  int choose_coarseness(bool moving) const;
+  void draw_finely();
 
   Settings initial_;
   Recent recent_;
@@ -77,7 +81,12 @@ class Studio {
   std::array<Side, 2> sides_;
   Difference difference_;
   std::string drawn_key_;
+  std::array<std::string, 2> side_keys_;  // what each side was last drawn for
   std::array<bool, 2> stale_ = {true, true};
+  // While something moves, pictures that take long are drawn coarsely.
+  int coarseness_ = 1;
+  std::map<int, double> cost_ms_;  // of a picture, by coarseness
+  std::chrono::steady_clock::time_point moved_at_;
   int width_ = 0, height_ = 0;
   std::deque<Message> messages_;
   std::string last_error_;

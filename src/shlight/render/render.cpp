@@ -61,7 +61,7 @@ RenderResult render(const Scene& scene, const RenderLight& light, const RenderPa
     frame.camera = params.camera;
     frame.camera.azimuth += turn;
     frame_renderer.draw(drawing, frame);
-    glFinish();
+    frame_renderer.finish();
   };
 
   draw(0);

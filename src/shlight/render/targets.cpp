@@ -112,6 +112,9 @@ Image RadianceTarget::read(double scale) const {
 PictureTarget::PictureTarget(int width, int height) : width_(width), height_(height) {
   check_size(width, height);
   texture_ = make_target_texture(GL_RGBA8, width, height);
+  // Who shows it larger than it is wants no steps.
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   framebuffer_ = gl::make_framebuffer();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.id(), 0);
