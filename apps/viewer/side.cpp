@@ -306,7 +306,7 @@ double Side::draw(const Subject& subject, const Settings& settings, const Look& 
   const int width = std::max(width_ / coarseness, 1), height = std::max(height_ / coarseness, 1);
   const auto same_size = frames_.find(coarseness);
   if (same_size != frames_.end() && (same_size->second.width() != width || same_size->second.height() != height))
-    frames_.clear();
+    frame_ = nullptr, frames_.clear();
   frame_ = &frames_.try_emplace(coarseness, width, height).first->second;
   const bool lit = built_show_ == Show::kLit || built_show_ == Show::kDegree;
   FrameParams frame = {settings.camera, settings.rotate_light, lit ? settings.exposure : 0,

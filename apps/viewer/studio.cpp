@@ -95,6 +95,7 @@ void Studio::take_light() {
 
 // Once both sides stand still: comparing takes a while.
 void Studio::request_difference() {
+  if (coarseness_ > 1) return;
   for (const int which : {0, 1})
     if (!sides_[static_cast<std::size_t>(which)].settled(settings.looks[static_cast<std::size_t>(which)])) return;
   // A reference that converges is compared at each doubling of its paths.
@@ -163,7 +164,7 @@ bool Studio::update(int width, int height) {
       say(error.what(), true);  // what the card cannot hold: the last picture stays
     }
     if (const auto error = sides_[i].take_error()) say(*error, true);
-    const std::string side_key = drawing_key(settings, settings.looks[i]);
+    const std::string side_key = drawing_key(settings, settings.looks[i]) + " " + subject_.light->key;
     moved[i] = side_key != side_keys_[i];
     side_keys_[i] = side_key;
     key += "[" + side_key + "]";

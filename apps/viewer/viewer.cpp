@@ -52,10 +52,13 @@ class Viewer {
       if (scripted && !run_script()) return;
       // A frame or two more than events ask for, so that what they open is drawn.
       constexpr int kAfterEvent = 3;
-      const double wait = scripted || awake_ > 0 ? 0 : studio_.busy() || insight_.busy() ? 0.03 : 0.25;
+      // While a script only waits, processors are left to what it waits for.
+      const bool waits = scripted && (script_.ended() || script_.line().words[0] == "wait");
+      const bool busy = scripted || studio_.busy() || insight_.busy();
+      const double wait = awake_ > 0 || (scripted && !waits) ? 0 : busy ? 0.03 : 0.25;
       window_.poll(wait);
       for (const std::string& path : window_.take_dropped()) studio_.open(path);
-      if (window_.take_events() || scripted) awake_ = kAfterEvent;
+      if (window_.take_events()) awake_ = kAfterEvent;
       frame();
     }
   }
