@@ -72,13 +72,19 @@ void Insight::draw_balloon(const Camera& camera, int width, int height) {
   if (key == balloon_key_) return;
   balloon_key_ = key;
   const RgbCoefficients light = balloon_light();
-  if (!balloon_renderer_) balloon_renderer_.emplace(IrradianceRenderer(light));
+  if (!balloon_renderer_) {
+    balloon_renderer_.emplace(IrradianceRenderer(light));
+    RgbCoefficients grey(1);
+    grey[0] = {0.085, 0.09, 0.1};
+    balloon_background_.emplace(grey);
+  }
   if (!balloon_frame_ || balloon_frame_->width() != width || balloon_frame_->height() != height)
     balloon_frame_.emplace(width, height);
   Camera seen;
-  seen.azimuth = camera.azimuth, seen.elevation = camera.elevation;
+  seen.azimuth = camera.azimuth, seen.elevation = camera.elevation, seen.zoom = 1.2;
   const Extent ball;  // balloons have radius 1
-  balloon_frame_->draw({*balloon_, ball, *balloon_renderer_, nullptr, {}}, {seen, {}, 0, ToneCurve::kFilmic});
+  balloon_frame_->draw({*balloon_, ball, *balloon_renderer_, &*balloon_background_, {}},
+                       {seen, {}, 0, ToneCurve::kFilmic});
 }
 
 void Insight::point(const Subject& subject, const Side& side, const Settings& settings, double x, double y,

@@ -53,6 +53,7 @@ class Insight {
   std::optional<PictureTexture> original_, reconstructed_;
   std::optional<GpuScene> balloon_;
   std::optional<SurfaceRenderer> balloon_renderer_;
+  std::optional<Background> balloon_background_;
   std::optional<FrameRenderer> balloon_frame_;
   std::string balloon_key_;
   std::optional<AtPointer> at_pointer_;

@@ -24,7 +24,7 @@ constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindo
 
 void begin_overlay(const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags more = 0) {
   ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
-  ImGui::SetNextWindowBgAlpha(0.86f);
+  ImGui::SetNextWindowBgAlpha(0.94f);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 8);
   ImGui::Begin(name, nullptr, kOverlay | more);
   ImGui::PopStyleVar();
@@ -99,7 +99,9 @@ void timing_overlay(const Studio& studio, const FrameTimes& times, const Layout&
   ImGui::PlotLines("##frames", totals.data(), static_cast<int>(totals.size()), 0, nullptr, 0, top,
                    {236 * layout.scale, 64 * layout.scale});
   ImGui::PopStyleColor();
-  if (ImGui::BeginTable("times", 4, ImGuiTableFlags_SizingStretchSame)) {
+  if (ImGui::BeginTable("times", 4, ImGuiTableFlags_SizingStretchProp)) {
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.4f);
+    for (int i = 0; i < 3; ++i) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1);
     const auto row = [](const char* name, double median, double p99, double max) {
       ImGui::TableNextColumn();
       ImGui::TextDisabled("%s", name);

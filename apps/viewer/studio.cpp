@@ -114,6 +114,7 @@ void Studio::request_difference() {
 void Studio::draw_side(int which) {
   const auto i = static_cast<std::size_t>(which);
   stale_[i] = false;
+  drawn_coarseness_[i] = coarseness_;
   try {
     const double ms = sides_[i].draw(subject_, settings, settings.looks[i], coarseness_);
     if (ms > 0) cost_ms_[coarseness_] = ms;
@@ -172,11 +173,10 @@ bool Studio::update(int width, int height) {
   constexpr double kStill = 0.2;  // seconds
   if (moved[0] || moved[1]) moved_at_ = now;
   const bool moving = std::chrono::duration<double>(now - moved_at_).count() < kStill;
-  const int coarseness = choose_coarseness(moving);
-  const bool refined = coarseness != coarseness_;
-  coarseness_ = coarseness;
+  coarseness_ = choose_coarseness(moving);
   for (const int which : {0, 1}) {
     const auto i = static_cast<std::size_t>(which);
+    const bool refined = drawn_coarseness_[i] != coarseness_;
     if (!settings.shows(which) || !(stale_[i] || moved[i] || resized || refined)) continue;
     draw_side(which);
     changed = true;

@@ -85,6 +85,7 @@ class Studio {
   std::array<bool, 2> stale_ = {true, true};
   // While something moves, pictures that take long are drawn coarsely.
   int coarseness_ = 1;
+  std::array<int, 2> drawn_coarseness_ = {1, 1};
   std::map<int, double> cost_ms_;  // of a picture, by coarseness
   std::chrono::steady_clock::time_point moved_at_;
   int width_ = 0, height_ = 0;
