@@ -133,8 +133,8 @@ TEST_F(ToolView, OpensWhatIsDroppedAsWhatItIs) {
 
 TEST_F(ToolView, ABakeGetsBetterAndCanBeStopped) {
   view_well(
-      "set model builtin:knot\nset method transfer\nset transfer shadowed\nset samples 8192\nset bands 3\n"
-      "frames 60\ncancel\nwait\nreport " +
+      "set method transfer\nset transfer shadowed\nset samples 8192\nset bands 3\n"
+      "frames 20\ncancel\nwait\nreport " +
       path("stopped") + "\npicture " + path("stopped.png") + "\n");
   EXPECT_EQ(report("stopped")["activity"], "");
   EXPECT_EQ(report("stopped")["last_error"], "") << "being stopped is no error";

@@ -98,7 +98,7 @@ class Task {
     job_ = std::make_unique<Job>();
     job_->key = wanted_;
     job_->thread = std::thread([job = job_.get(), work = std::exchange(next_, {}), patient = patient_] {
-      constexpr int kNice = 10;
+      constexpr int kNice = 5;
       if (patient) ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);
       try {
         work(
