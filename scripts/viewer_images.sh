@@ -20,37 +20,6 @@ shot() {
 
 shot first </dev/null
 
-shot method builtin:knot --light builtin:studio <<'END'
-set method hybrid
-set bands 5
-set material ggx:alpha=0.15,f0=0.9/0.65/0.3
-set camera 20,12,1.15
-END
-
-shot split builtin:knot --light builtin:studio <<'END'
-set camera 20,12,1.15
-set transfer interreflected
-set bands 3
-set side b
-set method reference
-set transfer interreflected
-set side a
-set compare split
-wait 256
-END
-
-shot difference builtin:knot --light builtin:studio <<'END'
-set camera 20,12,1.15
-set transfer interreflected
-set bands 3
-set side b
-set method reference
-set transfer interreflected
-set side a
-set compare difference
-wait 256
-END
-
 shot insight builtin:sphere --light builtin:sky:elevation=20,azimuth=-60 <<'END'
 set method irradiance
 set bands 3
@@ -78,4 +47,26 @@ END
 
 shot keys builtin:scene --light builtin:sky:elevation=8,azimuth=-110,turbidity=3 <<'END'
 set keys on
+END
+
+shot method builtin:knot --light builtin:studio <<'END'
+set method hybrid
+set bands 5
+set material ggx:alpha=0.15,f0=0.9/0.65/0.3
+set camera 20,12,1.15
+END
+
+# Both of one reference.
+shot difference builtin:knot --light builtin:studio <<END
+set camera 20,12,1.15
+set transfer interreflected
+set bands 3
+set side b
+set method reference
+set transfer interreflected
+set side a
+set compare split
+wait 64
+screenshot $images/split.png
+set compare difference
 END
