@@ -75,7 +75,7 @@ TEST_F(ToolHelp, WrongUsageIsExplained) {
         {{"render", "-o", png, "--bands", "3", "--show", "degree:3"}, "3 bands have the degrees 0 to 2"},
         {{"render", "-o", png, "--show", "visibility"}, "visibility only with --method transfer"},
         {{"view", "--set", "bands=eleven"}, "'eleven'"},
-        {{"view", "--set", "colour=red"}, "'colour' is nothing that can be set"},
+        {{"view", "--set", "colour=red"}, "'colour': is nothing that can be set"},
         {{"view", "--set", "material=velvet"}, "velvet"},
         {{"view", "--size", "0x0"}, "'0x0' is no size"},
         {{"view", "--scale", "nan"}, "--scale: 'nan' is no number"},

@@ -128,8 +128,9 @@ TEST_F(ToolRender, ShowsOneDegreeAlone) {
   EXPECT_LT(max_difference(degree("0", "0"), draw({"--bands", "1", "--no-background"})), 2e-3);
   const Image all = draw({"--bands", "2", "--no-background"}), mean = degree("0", "0"), first = degree("1", "0");
   for (std::size_t i = 0; i < all.values.size(); ++i) {
-    if (all.values[i] > 0 && first.values[i] > 0)
+    if (all.values[i] > 0 && first.values[i] > 0) {
       EXPECT_NEAR(mean.values[i] + first.values[i], all.values[i], 5e-3 * 6) << i;
+    }
   }
 }
 
