@@ -65,7 +65,7 @@ void log_curves(const char* id, std::span<const Curve> curves, float height, int
   for (int decade = bottom; decade <= top; decade += step) {
     const float y = y_of(std::pow(10.0, decade));
     draw.AddLine({area.min.x, y}, {area.max.x, y}, packed({1, 1, 1, 0.07f}));
-    const std::string text = decade >= -2 && decade <= 1 ? fmt::format("{:g} %", std::pow(10.0, decade + 2))
+    const std::string text = decade >= -5 && decade <= 1 ? fmt::format("{:g} %", std::pow(10.0, decade + 2))
                                                          : fmt::format("1e{} %", decade + 2);
     write({area.min.x - ImGui::CalcTextSize(text.c_str()).x - 0.35f * line, y - 0.5f * line}, kFaint, text);
   }

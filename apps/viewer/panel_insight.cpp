@@ -17,13 +17,13 @@ ImTextureID id_of(unsigned texture) {
   return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
 }
 
-void map(const PictureTexture* picture) {
-  const float width = ImGui::GetContentRegionAvail().x;
+void map(const PictureTexture* picture, float width) {
+  const float height =
+      picture ? width * static_cast<float>(picture->height()) / static_cast<float>(picture->width()) : 0.5f * width;
   if (picture)
-    ImGui::Image(id_of(picture->texture()),
-                 {width, width * static_cast<float>(picture->height()) / static_cast<float>(picture->width())});
+    ImGui::Image(id_of(picture->texture()), {width, height});
   else
-    ImGui::Dummy({width, 0.5f * width});
+    ImGui::Dummy({width, height});
 }
 
 // The errors of `measure` of 1, 2, … bands.
@@ -48,8 +48,10 @@ void insight_panel(Studio& studio, Insight& insight, const Layout& layout) {
   const Look& look = studio.settings.look();
   const float chart = 104 * layout.scale;
   if (section("The light, and what the bands keep of it")) {
-    map(insight.original());
-    map(insight.reconstructed());
+    const float gap = 6 * layout.scale, width = 0.5f * (ImGui::GetContentRegionAvail().x - gap);
+    map(insight.original(), width);
+    ImGui::SameLine(0, gap);
+    map(insight.reconstructed(), width);
     ImGui::TextDisabled("%d band%s, %d coefficients a colour", look.bands, look.bands == 1 ? "" : "s",
                         look.bands * look.bands);
   }

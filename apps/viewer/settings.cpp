@@ -162,7 +162,8 @@ const char* to_text(Method method) {
 }
 
 Settings::Settings() {
-  camera.azimuth = 30, camera.elevation = 10, camera.zoom = 1.1;
+  camera.azimuth = 30, camera.elevation = 11, camera.zoom = 1;
+  looks[0].window = "auto";  // shadows that ring are not what one would want to see first
   exposure = 0.4;
   looks[1].method = Method::kReference;
 }
