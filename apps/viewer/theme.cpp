@@ -79,7 +79,7 @@ void apply_theme(double scale) {
   style.WindowRounding = 0, style.ChildRounding = 6, style.FrameRounding = 5, style.GrabRounding = 4;
   style.PopupRounding = 7, style.ScrollbarRounding = 6;
   style.WindowBorderSize = 0, style.FrameBorderSize = 0, style.PopupBorderSize = 1;
-  style.WindowPadding = {14, 10}, style.FramePadding = {9, 4}, style.ItemSpacing = {8, 6};
+  style.WindowPadding = {14, 10}, style.FramePadding = {9, 3.5f}, style.ItemSpacing = {8, 5};
   style.ItemInnerSpacing = {7, 5}, style.ScrollbarSize = 10, style.GrabMinSize = 7;
   style.ScaleAllSizes(static_cast<float>(scale));
   const auto size = [scale](float pixels) { return std::round(pixels * static_cast<float>(scale)); };
