@@ -100,11 +100,15 @@ TEST_F(ToolView, ItsCommandDrawsTheSamePicture) {
       {"normals", "set show normals\nset camera 120,-20,0.8\n"},
       {"visibility", "set method transfer\nset transfer cosine\nset show visibility\n"},
   };
+  std::string script;
+  for (const auto& [name, settings] : scripts)
+    script += settings + "wait\npicture " + path(name + ".png") + "\ncommand " + path(name) +
+              "\nreset\nset light builtin:sky\n";
+  view_well(script);
   for (const auto& [name, settings] : scripts) {
-    view_well(settings + "wait\npicture " + path("shown.png") + "\ncommand " + path("line") + "\n");
-    const Image8 shown = load_image8(path("shown.png"));
+    const Image8 shown = load_image8(path(name + ".png"));
     EXPECT_GT(num_colors(shown), 3u) << name;
-    EXPECT_LE(largest_difference(shown, draw_command("line")), 2) << name << ": " << text_of(path("line"));
+    EXPECT_LE(largest_difference(shown, draw_command(name)), 2) << name << ": " << text_of(path(name));
   }
 }
 
