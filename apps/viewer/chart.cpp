@@ -76,8 +76,6 @@ void log_curves(const char* id, std::span<const Curve> curves, float height, int
           is_marked ? kAccent : kFaint, text);
     if (is_marked) draw.AddLine({x_of(i), area.min.y}, {x_of(i), area.max.y}, packed(kAccent, 0.35f));
   }
-  // Curves fall to the right: names stand at the left, below.
-  float legend = area.max.y - 1.15f * line;
   for (const Curve& curve : curves) {
     for (std::size_t i = 0; i < curve.values.size(); ++i) {
       if (!(curve.values[i] > 0)) continue;
@@ -86,8 +84,6 @@ void log_curves(const char* id, std::span<const Curve> curves, float height, int
         draw.AddLine({x_of(i - 1), y_of(curve.values[i - 1])}, at, packed(curve.color), 1.8f);
       draw.AddCircleFilled(at, 0.17f * line, packed(curve.color));
     }
-    if (*curve.name) write({area.min.x + 0.4f * line, legend}, curve.color, curve.name);
-    legend -= 1.05f * line;
   }
 }
 

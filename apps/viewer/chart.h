@@ -11,7 +11,6 @@ namespace shlight::viewer {
 struct Curve {
   std::span<const double> values;
   ImVec4 color;
-  const char* name = "";
 };
 
 // Curves over 1, 2, 3, … on a logarithmic axis of values, with the numbers of its decades, as wide as there is room.

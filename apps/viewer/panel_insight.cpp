@@ -36,10 +36,16 @@ std::vector<double> errors_of(const std::vector<BandError>& bands, double BandEr
 void error_chart(const BandErrors& errors, int bands, float height) {
   const std::vector<double> rms = errors_of(errors.bands, &BandError::rms),
                             most = errors_of(errors.bands, &BandError::max);
-  std::vector<Curve> curves = {{rms, kAccent, "root mean square"}, {most, kCool, "largest"}};
+  std::vector<Curve> curves = {{rms, kAccent}, {most, kCool}};
   const std::vector<double> shaped = errors_of(errors.shaped, &BandError::rms);
-  if (!shaped.empty()) curves.push_back({shaped, kInk, "windowed"});
+  if (!shaped.empty()) curves.push_back({shaped, kInk});
   log_curves("##errors", curves, height, bands - 1);
+  ImGui::TextColored(kAccent, "root mean square");
+  ImGui::SameLine();
+  ImGui::TextColored(kCool, "largest");
+  if (shaped.empty()) return;
+  ImGui::SameLine();
+  ImGui::TextColored(kInk, "windowed");
 }
 
 }  // namespace
@@ -68,9 +74,9 @@ void insight_panel(Studio& studio, Insight& insight, const Layout& layout) {
     else
       ImGui::TextDisabled(insight.busy() ? "measuring …" : "no light");
   }
-  if (section("Energy of the light in each degree")) {
+  if (section("Energy of the light in each band")) {
     if (!insight.energy().empty()) {
-      const std::vector<Curve> curves = {{insight.energy(), kAccent, ""}};
+      const std::vector<Curve> curves = {{insight.energy(), kAccent}};
       log_curves("##energy", curves, 0.85f * chart, look.bands - 1);
     }
   }
@@ -81,7 +87,7 @@ void insight_panel(Studio& studio, Insight& insight, const Layout& layout) {
                           at->radiance.b);
     }
   }
-  if (section("Â: what a diffuse surface keeps of each degree", false)) {
+  if (section("Â, what is kept of each degree", false)) {
     std::vector<double> kept;
     for (int l = 0; l < kMaxRenderBands; ++l) kept.push_back(cosine_lobe_hat(l));
     bars("##cosine", "degree", kept, kCool, 0.85f * chart, look.show == Show::kDegree ? look.degree : -1);

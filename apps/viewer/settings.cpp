@@ -163,7 +163,7 @@ const char* to_text(Method method) {
 
 Settings::Settings() {
   camera.azimuth = 30, camera.elevation = 11, camera.zoom = 1;
-  looks[0].window = "auto";  // shadows that ring are not what one would want to see first
+  looks[0].window = "auto-radiance";  // shadows that ring are not what one would want to see first
   exposure = 0.4;
   looks[1].method = Method::kReference;
 }
