@@ -14,6 +14,8 @@ pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)      # render
 if(SHLIGHT_WITH_APPS)
   find_package(CLI11 REQUIRED)
   find_package(spdlog REQUIRED)
+  pkg_check_modules(glfw REQUIRED IMPORTED_TARGET glfw3)   # viewer
+  pkg_check_modules(imgui REQUIRED IMPORTED_TARGET imgui)  # viewer
 endif()
 if(SHLIGHT_WITH_TESTS)
   find_package(GTest REQUIRED)

@@ -12,8 +12,8 @@ class ToolHelp : public ToolTest {};
 TEST_F(ToolHelp, EveryCommandHasAnExample) {
   const ToolRun program = run({"--help"});
   EXPECT_EQ(program.err, "");
-  for (const std::string command :
-       {"project", "project-brdf", "render", "bake", "info", "demo", "convert-map", "compare", "bands", "bench"}) {
+  for (const std::string command : {"project", "project-brdf", "render", "bake", "info", "demo", "convert-map",
+                                    "compare", "bands", "bench", "reproduce", "view"}) {
     EXPECT_NE(program.out.find("\n  " + command + " "), std::string::npos) << program;
     const ToolRun help = run({command, "--help"});
     EXPECT_EQ(help.err, "");
@@ -67,6 +67,18 @@ TEST_F(ToolHelp, WrongUsageIsExplained) {
         {{"render", "-o", png, "--camera", "0,nan"}, "'0,nan' is no camera"},
         {{"render", "-o", png, "--camera", "0,0,0"}, "'0,0,0' is no camera"},
         {{"render", "-o", png, "--camera", "0,0,1,"}, "'0,0,1,' is no camera"},
+        {{"render", "-o", png, "--look-at", "0,0"}, "'0,0' is no point"},
+        {{"render", "-o", png, "--look-at", "0,nan,0"}, "'0,nan,0' is no point"},
+        {{"render", "-o", png, "--tone-map", "curve"}, "--tone-map: Check curve"},
+        {{"render", "-o", png, "--show", "everything"}, "'everything' is none of normals"},
+        {{"render", "-o", png, "--show", "degree:10"}, "'degree:10' is none of normals"},
+        {{"render", "-o", png, "--bands", "3", "--show", "degree:3"}, "3 bands have the degrees 0 to 2"},
+        {{"render", "-o", png, "--show", "visibility"}, "visibility only with --method transfer"},
+        {{"view", "--set", "bands=eleven"}, "'eleven'"},
+        {{"view", "--set", "colour=red"}, "'colour': is nothing that can be set"},
+        {{"view", "--set", "material=velvet"}, "velvet"},
+        {{"view", "--size", "0x0"}, "'0x0' is no size"},
+        {{"view", "--scale", "nan"}, "--scale: 'nan' is no number"},
         {{"render", "-o", png, "--bands", "11"}, "--bands: Value 11 not in range 1 to 10"},
         {{"render", "-o", png, "--frames", "0"}, "--frames: Value 0 not in range 1 to"},
         {{"render", "-o", png, "--exposure", "inf"}, "'inf' is no number from -60 to 60"},

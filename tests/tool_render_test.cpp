@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -99,6 +100,44 @@ TEST_F(ToolRender, ExposureBrightensThePicture) {
     EXPECT_GT(mean, last + 20);
     last = mean;
   }
+}
+
+TEST_F(ToolRender, ShowsNormalsAndVisibilityAsTheyAre) {
+  const auto middle = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"render", "builtin:sphere", "--camera", "0,0", "--size",
+                                          "81x61",  "--exposure",     "3",        "-o",  path("a.png")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    run(arguments);
+    const Image8 picture = load_image8(folder_ / "a.png");
+    const std::size_t at = 4 * (30 * 81 + 40);
+    return std::array<int, 3>{picture.values[at], picture.values[at + 1], picture.values[at + 2]};
+  };
+  const auto normal = middle({"--show", "normals"});
+  EXPECT_NEAR(normal[0], 128, 4) << "+Z, toward the camera, whatever the exposure";
+  EXPECT_NEAR(normal[1], 128, 4);
+  EXPECT_NEAR(normal[2], 255, 1);
+  const auto open = middle({"--show", "visibility", "--method", "transfer", "--transfer", "cosine"});
+  for (const int channel : open) EXPECT_NEAR(channel, 255, 1) << "a sphere is open everywhere";
+}
+
+// Degrees add up, where none of them is cut off at 0.
+TEST_F(ToolRender, ShowsOneDegreeAlone) {
+  const auto degree = [&](const std::string& l, const std::string& turn) {
+    return draw({"--bands", "2", "--no-background", "--show", "degree:" + l, "--rotate-light", turn});
+  };
+  EXPECT_LT(max_difference(degree("0", "0"), draw({"--bands", "1", "--no-background"})), 2e-3);
+  const Image all = draw({"--bands", "2", "--no-background"}), mean = degree("0", "0"), first = degree("1", "0");
+  for (std::size_t i = 0; i < all.values.size(); ++i) {
+    if (all.values[i] > 0 && first.values[i] > 0) {
+      EXPECT_NEAR(mean.values[i] + first.values[i], all.values[i], 5e-3 * 6) << i;
+    }
+  }
+}
+
+TEST_F(ToolRender, LooksAtWhatItIsTold) {
+  const Image still = draw({"--camera", "0,0"}), right = draw({"--camera", "0,0", "--look-at", "0.5,0,0"});
+  EXPECT_GT(max_difference(still, right), 0.1);
+  EXPECT_LT(max_difference(draw({"--camera", "0,0", "--look-at", "0,0,0"}), still), 1e-6);
 }
 
 TEST_F(ToolRender, SameInputSameBytes) {

@@ -31,6 +31,7 @@ void add_compare(CLI::App& program, Run& run);
 void add_bands(CLI::App& program, Run& run);
 void add_bench(CLI::App& program, Run& run);
 void add_reproduce(CLI::App& program, Run& run);
+void add_view(CLI::App& program, Run& run);
 
 // The help of a LIGHT argument, and of a MODEL.
 extern const char* const kLightHelp;

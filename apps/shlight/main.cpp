@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
   shlight::app::add_bands(program, run);
   shlight::app::add_bench(program, run);
   shlight::app::add_reproduce(program, run);
+  shlight::app::add_view(program, run);
 
   const auto fail = [&](std::string text) {
     // One line, whatever the name of a file holds.

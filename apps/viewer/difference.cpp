@@ -31,6 +31,8 @@ bool Difference::update() {
   const auto news = task_.poll();
   if (!news || !news->result) return false;
   result_ = *news->result;
+  result_key_ = news->key;
+  texture_.emplace(result_->map);
   return true;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "shlight/image/image.h"
+#include "shlight/render/targets.h"
 #include "shlight/truth/image_error.h"
 #include "task.h"
 
@@ -24,12 +26,17 @@ class Difference {
   bool update();
   void cancel() { task_.cancel(); }
   bool busy() const { return task_.busy(); }
+  // Of the newest comparison that is done, and its key.
   const Result* result() const { return result_.get(); }
+  const std::string& result_key() const { return result_key_; }
+  const PictureTexture* texture() const { return texture_ ? &*texture_ : nullptr; }
   const std::string& wanted() const { return task_.wanted(); }
 
  private:
   Task<std::shared_ptr<const Result>> task_;
   std::shared_ptr<const Result> result_;
+  std::string result_key_;
+  std::optional<PictureTexture> texture_;
 };
 
 }  // namespace shlight::viewer

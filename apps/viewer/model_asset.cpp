@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "shlight/light/project_image.h"
 #include "shlight/scene/load_scene.h"
 
 namespace shlight::viewer {
@@ -22,24 +23,27 @@ Model load_model(const std::string& name, int serial) {
   return model;
 }
 
-void load_lighting(const std::string& name, int serial, const Task<Lighting>::Publish& publish, const Progress& progress) {
-  constexpr int kQuickWidth = 512, kFullWidth = 2048;
+void load_lighting(const std::string& name, int serial, const Task<Lighting>::Publish& publish,
+                   const Progress& progress) {
+  constexpr int kQuickWidth = 256, kFullWidth = 2048;
   const auto loaded = std::make_shared<const LoadedLight>(load_light(name));
   report_progress(progress, 0.1);
-  const auto publish_at = [&](int width) {
+  const auto publish_light = [&](RenderLight drawn, bool final) {
     auto light = std::make_shared<LightAsset>();
     light->name = name;
-    light->key = fmt::format("{} {} {}", serial, name, width);
+    light->key = fmt::format("{} {} {}", serial, name, final);
     light->loaded = loaded;
-    light->drawn = make_render_light(*loaded->light, kMaxRenderBands, width, worker_threads());
-    light->final = width == kFullWidth;
+    light->drawn = std::move(drawn);
+    light->final = final;
     publish(light);
     report_progress(progress, 0.3);
   };
-  // Pictures and coefficients need not be evaluated.
-  if (loaded->info.kind == LightInfo::Kind::kBuiltin || loaded->info.kind == LightInfo::Kind::kFormula)
-    publish_at(kQuickWidth);
-  publish_at(kFullWidth);
+  // Functions take a while to evaluate and to integrate: first what a small picture of them has.
+  if (loaded->info.kind == LightInfo::Kind::kBuiltin || loaded->info.kind == LightInfo::Kind::kFormula) {
+    const Image quick = loaded->light->lat_long(kQuickWidth, worker_threads());
+    publish_light({project_image({quick, Layout::kLatLong}, kMaxRenderBands, worker_threads()), quick}, false);
+  }
+  publish_light(make_render_light(*loaded->light, kMaxRenderBands, kFullWidth, worker_threads()), true);
 }
 
 std::vector<std::string> remarks(const LightInfo& info) {

@@ -17,8 +17,8 @@ namespace shlight::viewer {
 
 struct ModelAsset {
   std::string name;
-  std::string key;        // of this loading of it
-  Baked content;          // its scene, and transfer where the file was baked
+  std::string key;  // of this loading of it
+  Baked content;    // its scene, and transfer where the file was baked
   bool is_baked = false;
   Extent extent;
   std::size_t triangles = 0, vertices = 0;
@@ -29,14 +29,15 @@ Model load_model(const std::string& name, int serial);
 struct LightAsset {
   std::string name;
   std::shared_ptr<const LoadedLight> loaded;
-  RenderLight drawn;  // with kMaxRenderBands
-  std::string key;    // of this light at this fineness
+  RenderLight drawn;   // with kMaxRenderBands
+  std::string key;     // of this light at this fineness
   bool final = false;  // as fine as `render` draws it
 };
 using Lighting = std::shared_ptr<const LightAsset>;
 
 // Publishes it with a small background first, then as `render` draws it.
-void load_lighting(const std::string& name, int serial, const Task<Lighting>::Publish& publish, const Progress& progress);
+void load_lighting(const std::string& name, int serial, const Task<Lighting>::Publish& publish,
+                   const Progress& progress);
 
 // What there is to say about a light, a line each.
 std::vector<std::string> remarks(const LightInfo& info);

@@ -78,8 +78,8 @@ void set_show(Look& look, const std::string& text) {
     look.show = Show::kDegree;
     look.bands = std::max(look.bands, look.degree + 1);
   } else {
-    look.show = to_choice<Show>(
-        text, {{"light", Show::kLit}, {"normals", Show::kNormals}, {"visibility", Show::kVisibility}});
+    look.show =
+        to_choice<Show>(text, {{"light", Show::kLit}, {"normals", Show::kNormals}, {"visibility", Show::kVisibility}});
   }
 }
 
@@ -111,7 +111,10 @@ const std::map<std::string, Setter>& setters() {
              v, {{"one", Compare::kOne}, {"split", Compare::kSplit}, {"difference", Compare::kDifference}});
        }},
       {"divider", [](Settings& s, const std::string& v) { s.divider = to_number(v, 0, 1); }},
-      {"side", [](Settings& s, const std::string& v) { s.side = to_choice<int>(v, {{"a", 0}, {"b", 1}}); }},
+      {"side",
+       [](Settings& s, const std::string& v) {
+         s.side = to_choice<int>(v, {{"a", 0}, {"b", 1}});
+       }},
       {"controls", [](Settings& s, const std::string& v) { s.controls = to_switch(v); }},
       {"insight", [](Settings& s, const std::string& v) { s.insight = to_switch(v); }},
       {"timing", [](Settings& s, const std::string& v) { s.timing = to_switch(v); }},
@@ -139,10 +142,8 @@ const std::map<std::string, Setter>& setters() {
          if (!kind) refuse(v, "cosine, shadowed, interreflected");
          s.look().transfer = *kind;
        }},
-      {"samples",
-       [](Settings& s, const std::string& v) {
-         s.look().samples = v == "auto" ? 0 : to_int(v, 1, kMaxTransferSamples);
-       }},
+      {"samples", [](Settings& s,
+                     const std::string& v) { s.look().samples = v == "auto" ? 0 : to_int(v, 1, kMaxTransferSamples); }},
       {"bounces", [](Settings& s, const std::string& v) { s.look().bounces = to_int(v, 0, 64); }},
       {"shade",
        [](Settings& s, const std::string& v) {
@@ -161,7 +162,8 @@ const char* to_text(Method method) {
 }
 
 Settings::Settings() {
-  camera.azimuth = 30, camera.elevation = 10, camera.zoom = 1.1;
+  camera.azimuth = 30, camera.elevation = 11, camera.zoom = 1;
+  looks[0].window = "auto-radiance";  // shadows that ring are not what one would want to see first
   exposure = 0.4;
   looks[1].method = Method::kReference;
 }

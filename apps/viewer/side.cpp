@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "shlight/brdf/make_brdf.h"
@@ -50,7 +51,8 @@ void trace(const ModelAsset& model, const LightAsset& light, PathTraceParams par
   params.samples = kReplicates;
   for (const int smaller : {8, 4}) {
     params.width = std::max(width / smaller, 1), params.height = std::max(height / smaller, 1);
-    PathTraceResult quick = trace_paths(model.content.scene, *light.loaded->light, params, [&](double) { return progress(0); });
+    PathTraceResult quick =
+        trace_paths(model.content.scene, *light.loaded->light, params, [&](double) { return progress(0); });
     quick.samples = 0;  // pixels are larger than those that are asked for
     publish(std::move(quick));
   }
@@ -96,14 +98,14 @@ const GpuScene& GpuModel::get(bool tangents, bool colors) {
 
 void Side::request_tables(const Subject& subject, const Look& look) {
   const std::string key = table_key(subject, look);
-  if (tables_ && tables_->key == key) return;
-  if (key == cancelled_) return;
+  if ((tables_ && tables_->key == key) || key == cancelled_ || key == table_.wanted()) return;
   const bool hybrid = look.method == Method::kHybrid;
   RenderLight light;
   if (hybrid) light = {shaped_light(subject, look, look.bands), subject.light->drawn.background};
   table_.request(
       key,
-      [key, model = subject.model, look, hybrid, light = std::move(light)](const auto& publish, const Progress& progress) {
+      [key, model = subject.model, look, hybrid, light = std::move(light)](const auto& publish,
+                                                                           const Progress& progress) {
         ReflectanceTableParams params;
         params.bands = look.bands;
         params.threads = worker_threads();
@@ -144,7 +146,8 @@ void Side::request_bake(const Subject& subject, const Look& look) {
           const bool last = samples == look.samples;
           if (!last && (is_exact || (look.samples > 0 && samples >= look.samples))) continue;
           params.samples = is_exact ? 0 : samples;
-          auto transfer = std::make_shared<const Transfer>(bake_transfer(model->content.scene, params, watch(progress)));
+          auto transfer =
+              std::make_shared<const Transfer>(bake_transfer(model->content.scene, params, watch(progress)));
           publish(std::make_shared<const BakedTransfer>(BakedTransfer{key, transfer, last}));
           if (last) break;
         }
@@ -223,7 +226,8 @@ bool Side::build_renderer(const Subject& subject, const Look& look) {
     if (subject.model->is_baked && content.info.pca)
       renderer_.emplace(TransferRenderer(*content.info.pca, resize_bands(light, content.info.pca->bands)));
     else
-      renderer_.emplace(TransferRenderer(*transfer_->transfer, light, subject.model->is_baked ? content.info.bits : 32));
+      renderer_.emplace(
+          TransferRenderer(*transfer_->transfer, light, subject.model->is_baked ? content.info.bits : 32));
     bytes_ = transfer_->transfer->coefficients.size() * sizeof(float);
   } else if (tables_ready) {
     renderer_.emplace(ReflectanceRenderer(tables_->surfaces, light, look.shade, tables_->cubes, scale_.unit));
@@ -279,7 +283,7 @@ bool Side::update(const Subject& subject, const Settings& settings, const Look& 
   return changed;
 }
 
-void Side::draw(const Subject& subject, const Settings& settings, const Look& look) {
+double Side::draw(const Subject& subject, const Settings& settings, const Look& look, int coarseness) {
   const bool reference = look.method == Method::kReference;
   if (reference && traced_.radiance.num_pixels() > 0) {
     if (!traced_picture_ || traced_picture_->width() != width_ || traced_picture_->height() != height_)
@@ -288,26 +292,42 @@ void Side::draw(const Subject& subject, const Settings& settings, const Look& lo
     traced_picture_->set(traced_.radiance, scale.unit);
     traced_picture_->draw(exposed(scale, {{}, {}, settings.exposure, settings.curve}), settings.curve);
     showing_trace_ = true;
-    return;
+    return 0;
   }
   showing_trace_ = false;
-  if (reference) build_renderer(subject, {.method = Method::kIrradiance, .bands = look.bands, .window = look.window});
-  if (!renderer_) return;
+  if (reference) {  // until there are paths
+    Look plain = look;
+    plain.method = Method::kIrradiance;
+    plain.show = Show::kLit;
+    build_renderer(subject, plain);
+  }
+  if (!renderer_) return 0;
   refresh_light(subject, look);
-  if (!frame_ || frame_->width() != width_ || frame_->height() != height_) frame_.emplace(width_, height_);
+  const int width = std::max(width_ / coarseness, 1), height = std::max(height_ / coarseness, 1);
+  const auto same_size = frames_.find(coarseness);
+  if (same_size != frames_.end() && (same_size->second.width() != width || same_size->second.height() != height))
+    frame_ = nullptr, frames_.clear();
+  frame_ = &frames_.try_emplace(coarseness, width, height).first->second;
   const bool lit = built_show_ == Show::kLit || built_show_ == Show::kDegree;
   FrameParams frame = {settings.camera, settings.rotate_light, lit ? settings.exposure : 0,
                        lit ? settings.curve : ToneCurve::kNone};
   const float bright = look.mark_negative ? static_cast<float>(1 / exposed(scale_, frame)) : 0;
   mark_negative(*renderer_, {bright, 0, bright});
   const GpuScene& scene = subject.gpu->get(needs_tangents(*renderer_), built_show_ != Show::kVisibility);
+  const auto start = std::chrono::steady_clock::now();
   frame_->draw({scene, subject.model->extent, *renderer_, settings.background && lit ? &*background_ : nullptr, scale_},
                frame);
+  frame_->finish();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 unsigned Side::texture() const {
   if (showing_trace_) return traced_picture_->texture();
   return frame_ ? frame_->texture() : 0;
+}
+
+bool Side::has_picture() const {
+  return showing_trace_ || frame_;
 }
 
 Image8 Side::read_picture() const {

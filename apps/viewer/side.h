@@ -39,11 +39,13 @@ class Side {
  public:
   // Starts and takes in work; true where there is something new to draw.
   bool update(const Subject& subject, const Settings& settings, const Look& look, int width, int height);
-  // Draws what there is, into a picture of that size.
-  void draw(const Subject& subject, const Settings& settings, const Look& look);
+  // Draws what there is, into a picture of that size, or of that size divided by `coarseness`, which takes less time.
+  // Returns how long it took, in ms; 0 where that is not known.
+  double draw(const Subject& subject, const Settings& settings, const Look& look, int coarseness);
 
   // Of the picture drawn last: RGBA8, rows from the bottom; 0 where there is none.
   unsigned texture() const;
+  bool has_picture() const;  // needed by these
   Image8 read_picture() const;
   Image read_radiance() const;
 
@@ -96,7 +98,8 @@ class Side {
   Show built_show_ = Show::kLit;
   std::optional<SurfaceRenderer> renderer_;
   std::optional<Background> background_;
-  std::optional<FrameRenderer> frame_;
+  std::map<int, FrameRenderer> frames_;  // by coarseness
+  FrameRenderer* frame_ = nullptr;       // that was drawn last
   RgbCoefficients light_;
   LightScale scale_;
   std::size_t bytes_ = 0;

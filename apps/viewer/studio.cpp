@@ -95,6 +95,7 @@ void Studio::take_light() {
 
 // Once both sides stand still: comparing takes a while.
 void Studio::request_difference() {
+  if (coarseness_ > 1) return;
   for (const int which : {0, 1})
     if (!sides_[static_cast<std::size_t>(which)].settled(settings.looks[static_cast<std::size_t>(which)])) return;
   // A reference that converges is compared at each doubling of its paths.
@@ -103,11 +104,44 @@ void Studio::request_difference() {
     while (samples >>= 1) ++k;
     return k;
   };
-  const std::string key = fmt::format("{} {} {}", drawn_key_, doubling(sides_[0].traced_samples()),
-                                      doubling(sides_[1].traced_samples()));
+  const std::string key =
+      fmt::format("{} {} {}", drawn_key_, doubling(sides_[0].traced_samples()), doubling(sides_[1].traced_samples()));
   if (key == difference_.wanted()) return;
   const Image a = sides_[0].read_radiance(), b = sides_[1].read_radiance();
   if (a.width == b.width && a.height == b.height) difference_.request(key, a, b);
+}
+
+void Studio::draw_side(int which) {
+  const auto i = static_cast<std::size_t>(which);
+  stale_[i] = false;
+  drawn_coarseness_[i] = coarseness_;
+  try {
+    const double ms = sides_[i].draw(subject_, settings, settings.looks[i], coarseness_);
+    if (ms > 0) cost_ms_[coarseness_] = ms;
+  } catch (const Error& error) {
+    say(error.what(), true);
+  }
+}
+
+int Studio::choose_coarseness(bool moving) const {
+  constexpr double kQuick = 40;  // ms
+  constexpr int kCoarsest = 4;
+  if (!moving) return 1;
+  int coarseness = 1;
+  double ms = 0;
+  for (; coarseness < kCoarsest; coarseness *= 2) {
+    const auto known = cost_ms_.find(coarseness);
+    ms = known != cost_ms_.end() ? known->second : 0.25 * ms;  // a quarter of the pixels
+    if (ms <= kQuick) break;
+  }
+  return coarseness;
+}
+
+void Studio::draw_finely() {
+  if (coarseness_ == 1) return;
+  coarseness_ = 1;
+  for (const int which : {0, 1})
+    if (settings.shows(which)) draw_side(which);
 }
 
 bool Studio::update(int width, int height) {
@@ -120,26 +154,32 @@ bool Studio::update(int width, int height) {
   width_ = width, height_ = height;
 
   std::string key = fmt::format("{} {} {} {}", subject_.model->key, subject_.light->key, width, height);
-  std::array<std::string, 2> keys;
+  if (resized) cost_ms_.clear();
+  std::array<bool, 2> moved = {};
   for (const int which : {0, 1}) {
     const auto i = static_cast<std::size_t>(which);
     if (!settings.shows(which)) continue;
-    const Look& look = settings.looks[i];
     try {
-      if (sides_[i].update(subject_, settings, look, width, height)) stale_[i] = true;
-      keys[i] = drawing_key(settings, look);
-      if (stale_[i] || resized || drawn_key_.find(fmt::format("[{} {}]", which, keys[i])) == std::string::npos) {
-        sides_[i].draw(subject_, settings, look);
-        stale_[i] = false;
-        changed = true;
-      }
+      if (sides_[i].update(subject_, settings, settings.looks[i], width, height)) stale_[i] = true;
     } catch (const Error& error) {
-      // What the card cannot draw: the last picture stays.
-      say(error.what(), true);
-      stale_[i] = false;
+      say(error.what(), true);  // what the card cannot hold: the last picture stays
     }
-    key += fmt::format("[{} {}]", which, keys[i]);
     if (const auto error = sides_[i].take_error()) say(*error, true);
+    const std::string side_key = drawing_key(settings, settings.looks[i]) + " " + subject_.light->key;
+    moved[i] = side_key != side_keys_[i];
+    side_keys_[i] = side_key;
+    key += "[" + side_key + "]";
+  }
+  constexpr double kStill = 0.2;  // seconds
+  if (moved[0] || moved[1]) moved_at_ = now;
+  const bool moving = std::chrono::duration<double>(now - moved_at_).count() < kStill;
+  coarseness_ = choose_coarseness(moving);
+  for (const int which : {0, 1}) {
+    const auto i = static_cast<std::size_t>(which);
+    const bool refined = drawn_coarseness_[i] != coarseness_;
+    if (!settings.shows(which) || !(stale_[i] || moved[i] || resized || refined)) continue;
+    draw_side(which);
+    changed = true;
   }
   drawn_key_ = key;
   if (settings.compare == Compare::kDifference)
@@ -150,23 +190,27 @@ bool Studio::update(int width, int height) {
 }
 
 bool Studio::settled(int samples) const {
-  if (!ready() || model_task_.busy() || light_task_.busy() || difference_.busy()) return false;
+  if (!ready() || model_task_.busy() || light_task_.busy() || difference_.busy() || coarseness_ > 1) return false;
   for (const int which : {0, 1}) {
     if (!settings.shows(which)) continue;
     const Look& look = settings.looks[static_cast<std::size_t>(which)];
     if (!side(which).settled(look)) return false;
     if (look.method == Method::kReference && side(which).traced_samples() < samples) return false;
   }
-  return settings.compare != Compare::kDifference || difference_.result();
+  return settings.compare != Compare::kDifference || difference_fits();
 }
 
 bool Studio::busy() const {
-  return model_task_.busy() || light_task_.busy() || difference_.busy() || !side(0).activity().empty() ||
-         !side(1).activity().empty();
+  return coarseness_ > 1 || model_task_.busy() || light_task_.busy() || difference_.busy() ||
+         !side(0).activity().empty() || !side(1).activity().empty();
 }
 
-Image8 Studio::picture() const {
-  if (settings.compare == Compare::kDifference && difference_.result()) return difference_.result()->map;
+Image8 Studio::picture() {
+  draw_finely();
+  for (const int which : {0, 1})
+    if (settings.shows(which) && !side(which).has_picture())
+      throw Error("picture", "is not there yet", "a moment later");
+  if (settings.compare == Compare::kDifference && difference_fits()) return difference_.result()->map;
   Image8 picture = side(settings.side).read_picture();
   if (settings.compare != Compare::kSplit) return picture;
   picture = side(0).read_picture();
@@ -180,7 +224,9 @@ Image8 Studio::picture() const {
   return picture;
 }
 
-Image Studio::radiance() const {
+Image Studio::radiance() {
+  draw_finely();
+  if (!side(settings.side).has_picture()) throw Error("picture", "is not there yet", "a moment later");
   return side(settings.side).read_radiance();
 }
 

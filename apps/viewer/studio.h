@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -39,15 +40,17 @@ class Studio {
   Side& side(int which) { return sides_[static_cast<std::size_t>(which)]; }
   const Side& side(int which) const { return sides_[static_cast<std::size_t>(which)]; }
   const Difference& difference() const { return difference_; }
+  // Whether that is of what is drawn now.
+  bool difference_fits() const { return difference_.result() && difference_.result_key().starts_with(drawn_key_); }
   Recent& recent() { return recent_; }
   int width() const { return width_; }
   int height() const { return height_; }
   bool loading_model() const { return model_task_.busy(); }
   bool loading_light() const { return light_task_.busy(); }
 
-  // The picture as shown, of one side or both; and as linear radiance.
-  Image8 picture() const;
-  Image radiance() const;
+  // The picture as shown, of one side or both; and as linear radiance. Throw Error before anything is drawn.
+  Image8 picture();
+  Image radiance();
 
   // What to tell, the newest first, each for a few seconds.
   struct Message {
@@ -64,18 +67,27 @@ class Studio {
   void take_model();
   void take_light();
   void request_difference();
+  void draw_side(int which);
+  int choose_coarseness(bool moving) const;
+  void draw_finely();
 
   Settings initial_;
   Recent recent_;
-  Task<Model> model_task_;
-  Task<Lighting> light_task_;
+  Task<Model> model_task_ = Task<Model>(false);
+  Task<Lighting> light_task_ = Task<Lighting>(false);
   int serial_ = 0;
   std::string model_wanted_, light_wanted_;
   Subject subject_;
   std::array<Side, 2> sides_;
   Difference difference_;
   std::string drawn_key_;
+  std::array<std::string, 2> side_keys_;  // what each side was last drawn for
   std::array<bool, 2> stale_ = {true, true};
+  // While something moves, pictures that take long are drawn coarsely.
+  int coarseness_ = 1;
+  std::array<int, 2> drawn_coarseness_ = {1, 1};
+  std::map<int, double> cost_ms_;  // of a picture, by coarseness
+  std::chrono::steady_clock::time_point moved_at_;
   int width_ = 0, height_ = 0;
   std::deque<Message> messages_;
   std::string last_error_;

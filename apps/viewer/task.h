@@ -1,6 +1,5 @@
 #pragma once
 
-#include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -29,6 +28,9 @@ inline int worker_threads() {
 template <class Result>
 class Task {
  public:
+  // `patient` work takes a lower priority than the window's.
+  explicit Task(bool patient = true) : patient_(patient) {}
+
   // What the work is given: call `publish` as often as there is something better to show.
   using Publish = std::function<void(Result)>;
   using Work = std::function<void(const Publish& publish, const Progress& progress)>;
@@ -95,10 +97,9 @@ class Task {
     if (job_ || !next_) return;
     job_ = std::make_unique<Job>();
     job_->key = wanted_;
-    job_->thread = std::thread([job = job_.get(), work = std::exchange(next_, {})] {
-      // The window comes first.
-      constexpr int kNice = 10;
-      ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);
+    job_->thread = std::thread([job = job_.get(), work = std::exchange(next_, {}), patient = patient_] {
+      constexpr int kNice = 5;
+      if (patient) ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);
       try {
         work(
             [job](Result result) {
@@ -118,6 +119,7 @@ class Task {
     });
   }
 
+  bool patient_;
   std::unique_ptr<Job> job_;
   Work next_;
   std::string wanted_;

@@ -15,8 +15,8 @@ constexpr std::array kTextFonts = {"/usr/share/fonts/truetype/lato/Lato-Medium.t
 constexpr std::array kHeadingFonts = {"/usr/share/fonts/truetype/lato/Lato-Bold.ttf",
                                       "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"};
 // Latin with accents, Greek, dashes and dots, arrows, mathematics.
-constexpr ImWchar kRanges[] = {0x20, 0x17f, 0x370, 0x3ff, 0x2010, 0x2027, 0x2070, 0x209f,
-                               0x2190, 0x21ff, 0x2200, 0x22ff, 0};
+constexpr ImWchar kRanges[] = {0x20,   0x17f,  0x370,  0x3ff,  0x2010, 0x2027, 0x2070,
+                               0x209f, 0x2190, 0x21ff, 0x2200, 0x22ff, 0};
 
 template <std::size_t kCount>
 ImFont* load_font(const std::array<const char*, kCount>& files, float size) {
@@ -59,8 +59,8 @@ void set_colors(ImGuiStyle& style) {
   c[ImGuiCol_ButtonHovered] = field_hovered;
   c[ImGuiCol_ButtonActive] = field_active;
   c[ImGuiCol_CheckMark] = kAccent;
-  c[ImGuiCol_SliderGrab] = with_alpha(kAccent, 0.8f);
-  c[ImGuiCol_SliderGrabActive] = kAccent;
+  c[ImGuiCol_SliderGrab] = with_alpha(kAccent, 0.55f);
+  c[ImGuiCol_SliderGrabActive] = with_alpha(kAccent, 0.8f);
   c[ImGuiCol_Separator] = {1, 1, 1, 0.07f};
   c[ImGuiCol_ScrollbarBg] = {0, 0, 0, 0};
   c[ImGuiCol_ScrollbarGrab] = {1, 1, 1, 0.12f};
@@ -79,8 +79,8 @@ void apply_theme(double scale) {
   style.WindowRounding = 0, style.ChildRounding = 6, style.FrameRounding = 5, style.GrabRounding = 4;
   style.PopupRounding = 7, style.ScrollbarRounding = 6;
   style.WindowBorderSize = 0, style.FrameBorderSize = 0, style.PopupBorderSize = 1;
-  style.WindowPadding = {14, 12}, style.FramePadding = {9, 5}, style.ItemSpacing = {8, 7};
-  style.ItemInnerSpacing = {7, 5}, style.ScrollbarSize = 10, style.GrabMinSize = 11;
+  style.WindowPadding = {14, 10}, style.FramePadding = {9, 3.5f}, style.ItemSpacing = {8, 5};
+  style.ItemInnerSpacing = {7, 5}, style.ScrollbarSize = 10, style.GrabMinSize = 7;
   style.ScaleAllSizes(static_cast<float>(scale));
   const auto size = [scale](float pixels) { return std::round(pixels * static_cast<float>(scale)); };
   ImGui::GetIO().Fonts->Clear();

@@ -153,6 +153,8 @@ void Window::end_frame() {
   constexpr double kPage = 0.07;
   WindowTarget::begin(width(), height(), kPage);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  // The package is compiled for desktop OpenGL, and asks for what OpenGL ES does not have (GL_POLYGON_MODE).
+  WindowTarget::forget_errors();
 }
 
 void Window::show() {

@@ -27,6 +27,10 @@ void FrameRenderer::draw(const Drawing& drawing, const FrameParams& frame) const
   tone_mapper_.draw(radiance_.texture(), exposed(drawing.scale, frame), frame.curve);
 }
 
+void FrameRenderer::finish() const {
+  glFinish();
+}
+
 Image FrameRenderer::read_radiance() const {
   return radiance_.read(1 / unit_);
 }

@@ -40,6 +40,8 @@ class FrameRenderer {
   FrameRenderer(int width, int height);
 
   void draw(const Drawing& drawing, const FrameParams& frame) const;
+  // Waits until the device has drawn it.
+  void finish() const;
 
   // Linear radiance of what was drawn last, in the light's own unit.
   Image read_radiance() const;

@@ -65,7 +65,7 @@ RenderResult render(const Scene& scene, const RenderLight& light, const RenderPa
     if (params.shadows && (params.turn_light || turn == 0))
       gpu_scene.set_shadows(params.shadows->under(rotate(frame.rotate_light, coefficients)));
     frame_renderer.draw(drawing, frame);
-    glFinish();
+    frame_renderer.finish();
   };
 
   draw(0);

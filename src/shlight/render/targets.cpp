@@ -42,6 +42,8 @@ gl::Texture make_target_texture(unsigned format, int width, int height) {
   glTexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   return texture;
 }
 
@@ -112,6 +114,9 @@ Image RadianceTarget::read(double scale) const {
 PictureTarget::PictureTarget(int width, int height) : width_(width), height_(height) {
   check_size(width, height);
   texture_ = make_target_texture(GL_RGBA8, width, height);
+  // Who shows it larger than it is wants no steps.
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   framebuffer_ = gl::make_framebuffer();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.id(), 0);
@@ -139,6 +144,11 @@ Image8 WindowTarget::read(int width, int height) {
   Image8 picture = read_picture(0, width, height);
   for (std::size_t i = 3; i < picture.values.size(); i += 4) picture.values[i] = 255;
   return picture;
+}
+
+void WindowTarget::forget_errors() {
+  while (glGetError() != GL_NO_ERROR) {
+  }
 }
 
 PictureTexture::PictureTexture(const Image8& picture)

@@ -56,6 +56,8 @@ class WindowTarget {
   static void begin(int width, int height, double grey);
   // What was drawn, before it is shown: rows from the top, alpha 255.
   static Image8 read(int width, int height);
+  // Forgets OpenGL's errors of whoever else draws into the window, so that no later check takes them for its own.
+  static void forget_errors();
 };
 
 // A picture that pixels are uploaded into, for those who draw with textures.

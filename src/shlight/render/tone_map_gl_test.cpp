@@ -24,7 +24,7 @@ gl::Texture make_row(int width, const float* values) {
 }
 
 // Tone maps colours into floats, so that nothing is lost to eight bits.
-std::vector<Rgb> tone_mapped(const std::vector<Rgb>& colors, double exposure) {
+std::vector<Rgb> tone_mapped(const std::vector<Rgb>& colors, double exposure, ToneCurve curve = ToneCurve::kFilmic) {
   std::vector<float> values;
   for (const Rgb& c : colors)
     values.insert(values.end(), {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1});
@@ -34,7 +34,7 @@ std::vector<Rgb> tone_mapped(const std::vector<Rgb>& colors, double exposure) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, output.id(), 0);
   glViewport(0, 0, width, 1);
-  ToneMapper().draw(input.id(), exposure);
+  ToneMapper().draw(input.id(), exposure, curve);
   glReadPixels(0, 0, width, 1, GL_RGBA, GL_FLOAT, values.data());
   std::vector<Rgb> result(colors.size());
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = {values[4 * i], values[4 * i + 1], values[4 * i + 2]};
@@ -85,12 +85,14 @@ TEST_F(ToneMap, IsTheProcessorsToHalfAStepOfAPicture) {
   for (double stops = -12; stops <= 12; stops += 0.5)
     for (const Rgb& hue : {Rgb{1, 1, 1}, Rgb{1, 0.2, 0.03}, Rgb{0.1, 0.4, 1}, Rgb{0, 1, -1}})
       colors.push_back(std::exp2(stops) * hue);
-  const std::vector<Rgb> mapped = tone_mapped(colors, 0.7);
-  for (std::size_t i = 0; i < colors.size(); ++i) {
-    const Rgb expected = tone_map(0.7 * colors[i]);
-    EXPECT_NEAR(mapped[i].r, encode_srgb(expected.r), 0.5 / 255) << i;
-    EXPECT_NEAR(mapped[i].g, encode_srgb(expected.g), 0.5 / 255) << i;
-    EXPECT_NEAR(mapped[i].b, encode_srgb(expected.b), 0.5 / 255) << i;
+  for (const ToneCurve curve : {ToneCurve::kFilmic, ToneCurve::kNone}) {
+    const std::vector<Rgb> mapped = tone_mapped(colors, 0.7, curve);
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+      const Rgb expected = tone_map(0.7 * colors[i], curve);
+      EXPECT_NEAR(mapped[i].r, encode_srgb(expected.r), 0.5 / 255) << i;
+      EXPECT_NEAR(mapped[i].g, encode_srgb(expected.g), 0.5 / 255) << i;
+      EXPECT_NEAR(mapped[i].b, encode_srgb(expected.b), 0.5 / 255) << i;
+    }
   }
 }
 

@@ -22,8 +22,11 @@ TEST(Balloon, IsAsFarAwayAsTheFunctionIsLarge) {
     const Vec3f p = mesh.positions[i];
     const double r = length(p), y = p.y / r;
     EXPECT_NEAR(r, std::max(std::abs(y), 0.01), 1e-4);
-    if (y > 0.1) EXPECT_NEAR(mesh.colors[i].y / mesh.colors[i].x, 2.0 / 3, 1e-4) << "the light's own hue";
-    if (y < -0.1) EXPECT_LT(mesh.colors[i].y, 0.1) << "negative light is magenta";
+    if (y > 0.1) {
+      EXPECT_NEAR(mesh.colors[i].y / mesh.colors[i].x, 2.0 / 3, 1e-4) << "the light's own hue";
+    } else if (y < -0.1) {
+      EXPECT_LT(mesh.colors[i].y, 0.1) << "negative light is magenta";
+    }
     EXPECT_NEAR(length(mesh.normals[i]), 1, 1e-5);
   }
 }

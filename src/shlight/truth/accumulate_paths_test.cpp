@@ -28,7 +28,7 @@ TEST(AccumulatePaths, PassesConvergeAndKnowTheirNoise) {
   const auto light = make_studio_light();
   PathTraceParams params;
   params.width = 40, params.height = 30, params.transfer = TransferKind::kCosine;
-  params.samples = 4096, params.seed = 1000;
+  params.samples = 1024, params.seed = 1000;
   const PathTraceResult truth = trace_paths(scene, *light, params);
 
   params.samples = 32;

@@ -1,0 +1,269 @@
+#include "panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "parameters.h"
+#include "theme.h"
+
+namespace shlight::viewer {
+namespace {
+
+constexpr float kControlsWidth = 300, kInsightWidth = 336;  // at scale 1
+constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                                      ImGuiWindowFlags_NoFocusOnAppearing;
+
+void begin_overlay(const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags more = 0) {
+  ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+  ImGui::SetNextWindowBgAlpha(0.94f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 8);
+  ImGui::Begin(name, nullptr, kOverlay | more);
+  ImGui::PopStyleVar();
+}
+
+void keys_overlay(const Layout& layout) {
+  static constexpr std::array<std::array<const char*, 2>, 16> kKeys = {{
+      {"left drag", "turn the camera"},
+      {"middle or Shift+left drag", "move the camera"},
+      {"right drag", "turn the light"},
+      {"wheel", "nearer, farther"},
+      {"1 … 9, 0", "bands, 0 is ten"},
+      {"M", "next method"},
+      {"A, B", "controls of side A or B"},
+      {"S", "split the picture"},
+      {"D", "difference of A and B"},
+      {"N", "stripes where light is negative"},
+      {"I, T", "insight, times of frames"},
+      {"Tab", "controls"},
+      {"P, E", "save the picture, its radiance"},
+      {"C", "copy as command"},
+      {"R", "reset"},
+      {"H", "this list"},
+  }};
+  begin_overlay("keys", {layout.left + 0.5f * layout.picture_width(), 0.5f * layout.height}, {0.5f, 0.5f});
+  ImGui::PushFont(heading_font());
+  ImGui::TextUnformatted("Keys and pointer");
+  ImGui::PopFont();
+  ImGui::Dummy({0, 2});
+  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    for (const auto& [key, what] : kKeys) {
+      ImGui::TableNextColumn();
+      ImGui::TextColored(kAccent, "%s", key);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(what);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::TextDisabled("Drop a model or a light on the window to open it.");
+  ImGui::End();
+}
+
+void messages_overlay(const Studio& studio, const Layout& layout) {
+  if (studio.messages().empty()) return;
+  const float width = std::max(std::min(layout.picture_width() - 40 * layout.scale, 620 * layout.scale), 80.0f);
+  const ImVec2 at = {layout.left + 0.5f * layout.picture_width(), layout.height - 18 * layout.scale};
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, layout.height});
+  begin_overlay("messages", at, {0.5f, 1}, ImGuiWindowFlags_NoInputs);
+  ImGui::PushTextWrapPos(0);
+  for (const Studio::Message& message : studio.messages())
+    ImGui::TextColored(message.is_error ? kWarning : kInk, "%s", message.text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::End();
+}
+
+std::string bytes_text(std::size_t bytes) {
+  if (bytes < 10'000) return fmt::format("{} bytes", bytes);
+  return bytes < 10'000'000 ? fmt::format("{:.0f} kB", 1e-3 * static_cast<double>(bytes))
+                            : fmt::format("{:.0f} MB", 1e-6 * static_cast<double>(bytes));
+}
+
+void timing_overlay(const Studio& studio, const FrameTimes& times, const Layout& layout) {
+  begin_overlay("timing", {layout.left + layout.picture_width() - 16 * layout.scale, 16 * layout.scale}, {1, 0});
+  ImGui::PushFont(heading_font());
+  ImGui::TextUnformatted("Frames");
+  ImGui::PopFont();
+  const FrameTimes::Summary s = times.summary();
+  std::vector<float> totals;
+  for (const FrameTimes::Frame& frame : times.kept()) totals.push_back(static_cast<float>(frame.total_ms));
+  ImGui::PushStyleColor(ImGuiCol_FrameBg, ImVec4{0, 0, 0, 0.25f});
+  const float top = static_cast<float>(std::max(1.15 * s.max.total_ms, 20.0));
+  ImGui::PlotLines("##frames", totals.data(), static_cast<int>(totals.size()), 0, nullptr, 0, top,
+                   {236 * layout.scale, 64 * layout.scale});
+  ImGui::PopStyleColor();
+  if (ImGui::BeginTable("times", 4, ImGuiTableFlags_SizingStretchProp)) {
+    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.4f);
+    for (int i = 0; i < 3; ++i) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1);
+    const auto row = [](const char* name, double median, double p99, double max) {
+      ImGui::TableNextColumn();
+      ImGui::TextDisabled("%s", name);
+      for (const double value : {median, p99, max}) {
+        ImGui::TableNextColumn();
+        ImGui::Text("%.2f", value);
+      }
+    };
+    for (const char* title : {"ms", "median", "99 %", "most"}) {
+      ImGui::TableNextColumn();
+      ImGui::TextDisabled("%s", title);
+    }
+    row("frame", s.median.total_ms, s.p99.total_ms, s.max.total_ms);
+    row("not drawn", s.median.own_ms, s.p99.own_ms, s.max.own_ms);
+    ImGui::EndTable();
+  }
+  if (studio.ready()) {
+    ImGui::TextDisabled("%zu triangles, %zu vertices", studio.subject().model->triangles,
+                        studio.subject().model->vertices);
+    ImGui::TextDisabled("%s for the method, %d x %d pixels",
+                        bytes_text(studio.side(studio.settings.side).bytes()).c_str(), studio.width(), studio.height());
+  }
+  ImGui::End();
+}
+
+void controls(Studio& studio, const Layout& layout, Wishes& wishes) {
+  ImGui::SetNextWindowPos({0, 0});
+  ImGui::SetNextWindowSize({layout.left, layout.height});
+  ImGui::Begin("controls", nullptr, kPanel);
+  ImGui::BeginChild("settings", {0, -wish_buttons_height()});
+  scene_panel(studio);
+  light_panel(studio);
+  look_panel(studio);
+  picture_panel(studio);
+  ImGui::EndChild();
+  ImGui::Separator();
+  wish_buttons(studio, wishes);
+  ImGui::End();
+}
+
+}  // namespace
+
+Layout make_layout(const Settings& settings, int width, int height, double scale) {
+  Layout layout;
+  layout.scale = static_cast<float>(scale);
+  layout.width = static_cast<float>(width), layout.height = static_cast<float>(height);
+  // A picture has at least as much room as a panel: in small windows panels give way.
+  const float controls_width = std::floor(kControlsWidth * layout.scale),
+              insight = std::floor(kInsightWidth * layout.scale);
+  if (settings.controls && layout.width >= 2 * controls_width) layout.left = controls_width;
+  if (settings.insight && layout.width - layout.left >= 2 * insight) layout.right = insight;
+  return layout;
+}
+
+void draw_panels(Studio& studio, Insight& insight, const FrameTimes& times, const Layout& layout, Wishes& wishes) {
+  viewport(studio, layout);
+  if (layout.left > 0) controls(studio, layout, wishes);
+  if (layout.right > 0) {
+    ImGui::SetNextWindowPos({layout.width - layout.right, 0});
+    ImGui::SetNextWindowSize({layout.right, layout.height});
+    ImGui::Begin("insight", nullptr, kPanel & ~ImGuiWindowFlags_NoScrollbar);
+    insight_panel(studio, insight, layout);
+    ImGui::End();
+  }
+  if (studio.settings.timing) timing_overlay(studio, times, layout);
+  if (studio.settings.keys) keys_overlay(layout);
+  messages_overlay(studio, layout);
+}
+
+bool section(const char* title, bool open) {
+  ImGui::Dummy({0, 1});
+  ImGui::PushFont(heading_font());
+  const bool shown = ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  ImGui::PopFont();
+  return shown;
+}
+
+void named(const char* name) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s", name);
+  ImGui::SameLine(5.4f * ImGui::GetFontSize());
+  ImGui::SetNextItemWidth(-1);
+}
+
+void hint(const char* text) {
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(20 * ImGui::GetFontSize());
+  ImGui::TextUnformatted(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+bool slider(const char* name, double& value, double low, double high, const char* format, bool logarithmic) {
+  named(name);
+  return ImGui::SliderScalar(fmt::format("##{}", name).c_str(), ImGuiDataType_Double, &value, &low, &high, format,
+                             ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
+}
+
+bool slider(const char* name, int& value, int low, int high) {
+  named(name);
+  return ImGui::SliderInt(fmt::format("##{}", name).c_str(), &value, low, high, "%d", ImGuiSliderFlags_AlwaysClamp);
+}
+
+bool choice(const char* name, std::string& value, const std::vector<std::string>& words) {
+  named(name);
+  bool changed = false;
+  if (!ImGui::BeginCombo(fmt::format("##{}", name).c_str(), value.c_str())) return false;
+  for (const std::string& word : words)
+    if (ImGui::Selectable(word.c_str(), word == value)) value = word, changed = true;
+  ImGui::EndCombo();
+  return changed;
+}
+
+namespace {
+
+double to_double(const std::string& text, double otherwise) {
+  double value = otherwise;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() ? value : otherwise;
+}
+
+bool color_knob(Parameters& parameters, const Knob& knob) {
+  const std::string text = parameters.get(knob.key, fmt::format("{:g}", knob.value));
+  const std::size_t first = text.find('/'), second = text.rfind('/');
+  std::array<float, 3> rgb;
+  rgb[0] = static_cast<float>(to_double(text, knob.value));
+  rgb[1] = first == std::string::npos ? rgb[0] : static_cast<float>(to_double(text.substr(first + 1), knob.value));
+  rgb[2] = first == std::string::npos ? rgb[0] : static_cast<float>(to_double(text.substr(second + 1), knob.value));
+  named(knob.key.c_str());
+  if (!ImGui::ColorEdit3(fmt::format("##{}", knob.key).c_str(), rgb.data(), ImGuiColorEditFlags_Float)) return false;
+  for (float& v : rgb) v = std::clamp(v, static_cast<float>(knob.low), static_cast<float>(knob.high));
+  parameters.set(knob.key, fmt::format("{:.3g}/{:.3g}/{:.3g}", rgb[0], rgb[1], rgb[2]));
+  return true;
+}
+
+bool number_knob(Parameters& parameters, const Knob& knob) {
+  double value = to_double(parameters.get(knob.key, ""), knob.value);
+  if (!slider(knob.key.c_str(), value, knob.low, knob.high, "%.3g")) return false;
+  parameters.set(knob.key, fmt::format("{:.4g}", std::clamp(value, knob.low, knob.high)));
+  return true;
+}
+
+bool word_knob(Parameters& parameters, const Knob& knob) {
+  std::string word = parameters.get(knob.key, knob.words[static_cast<std::size_t>(knob.value)]);
+  if (!choice(knob.key.c_str(), word, knob.words)) return false;
+  parameters.set(knob.key, word);
+  return true;
+}
+
+}  // namespace
+
+bool knobs(std::string& text, const std::vector<Knob>& knobs) {
+  Parameters parameters(text);
+  bool changed = false;
+  for (const Knob& knob : knobs)
+    changed = (!knob.words.empty() ? word_knob(parameters, knob)
+               : knob.is_color     ? color_knob(parameters, knob)
+                                   : number_knob(parameters, knob)) ||
+              changed;
+  if (changed) text = parameters.text();
+  return changed;
+}
+
+}  // namespace shlight::viewer

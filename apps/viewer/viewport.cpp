@@ -1,0 +1,161 @@
+// The picture, and what is done with the pointer in it.
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "navigation.h"
+#include "panels.h"
+#include "theme.h"
+
+namespace shlight::viewer {
+namespace {
+
+ImTextureID id_of(unsigned texture) {
+  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+}
+
+struct Rect {
+  ImVec2 min, max;
+  float width() const { return max.x - min.x; }
+  float height() const { return max.y - min.y; }
+};
+
+std::string describe(const Look& look) {
+  if (look.show == Show::kNormals) return "normals";
+  if (look.show == Show::kVisibility) return "visibility";
+  std::string text = to_text(look.method);
+  if (look.method == Method::kTransfer || look.method == Method::kReference)
+    text = fmt::format("{}, {}", text, to_text(look.transfer));
+  if (look.method != Method::kReference) text += fmt::format(", {} band{}", look.bands, look.bands == 1 ? "" : "s");
+  if (look.show == Show::kDegree) text += fmt::format(", degree {} alone", look.degree);
+  if (look.window != "none") text += ", window " + look.window;
+  return text;
+}
+
+// A label on the picture, at a corner: a name, what goes on, and how far that is.
+void label(const std::string& text, const Side& side, ImVec2 at, float align, float scale) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  std::string activity = side.activity();
+  if (side.traced_samples() > 0 && !activity.empty())
+    activity += fmt::format(", noise {:.2g} %", 100 * side.traced_noise());
+  const std::string all = activity.empty() ? text : text + "   " + activity;
+  const ImVec2 size = ImGui::CalcTextSize(all.c_str());
+  const float pad = 8 * scale;
+  const ImVec2 min = {at.x - align * (size.x + 2 * pad), at.y},
+               max = {min.x + size.x + 2 * pad, min.y + size.y + 1.2f * pad};
+  draw.AddRectFilled(min, max, ImGui::GetColorU32({0.07f, 0.075f, 0.085f, 0.72f}), 6 * scale);
+  draw.AddText({min.x + pad, min.y + 0.6f * pad}, ImGui::GetColorU32(kInk), text.c_str());
+  if (activity.empty()) return;
+  draw.AddText({min.x + pad + ImGui::CalcTextSize((text + "   ").c_str()).x, min.y + 0.6f * pad},
+               ImGui::GetColorU32(kAccent), activity.c_str());
+  const float filled = (max.x - min.x - 2 * pad) * static_cast<float>(std::clamp(side.fraction(), 0.0, 1.0));
+  draw.AddRectFilled({min.x + pad, max.y - 3 * scale}, {min.x + pad + filled, max.y - 1.5f * scale},
+                     ImGui::GetColorU32(kAccent));
+}
+
+void draw_pictures(const Studio& studio, const Rect& rect, float scale) {
+  const Settings& s = studio.settings;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const auto picture = [&](int which, float from, float to) {
+    const unsigned texture = studio.side(which).texture();
+    if (texture == 0 || to <= from) return;
+    draw.AddImage(id_of(texture), {rect.min.x + from * rect.width(), rect.min.y},
+                  {rect.min.x + to * rect.width(), rect.max.y}, {from, 1}, {to, 0});
+  };
+  const float margin = 12 * scale;
+  if (s.compare == Compare::kOne) {
+    picture(s.side, 0, 1);
+    label(describe(s.looks[static_cast<std::size_t>(s.side)]), studio.side(s.side),
+          {rect.min.x + margin, rect.min.y + margin}, 0, scale);
+    return;
+  }
+  const auto divider = static_cast<float>(s.divider);
+  picture(0, 0, divider);
+  picture(1, divider, 1);
+  const float x = std::round(rect.min.x + divider * rect.width()), y = 0.5f * (rect.min.y + rect.max.y);
+  draw.AddLine({x, rect.min.y}, {x, rect.max.y}, ImGui::GetColorU32({1, 1, 1, 0.75f}), 1.5f * scale);
+  draw.AddCircleFilled({x, y}, 7 * scale, ImGui::GetColorU32({1, 1, 1, 0.9f}), 24);
+  draw.AddCircleFilled({x, y}, 3 * scale, ImGui::GetColorU32(kAccent), 16);
+  label("A  " + describe(s.looks[0]), studio.side(0), {rect.min.x + margin, rect.min.y + margin}, 0, scale);
+  label("B  " + describe(s.looks[1]), studio.side(1), {rect.max.x - margin, rect.max.y - margin - 34 * scale}, 1,
+        scale);
+}
+
+void draw_difference(const Studio& studio, const Rect& rect, float scale) {
+  const Difference::Result& result = *studio.difference().result();
+  const PictureTexture& map = *studio.difference().texture();
+  const auto width = static_cast<float>(map.width()), height = static_cast<float>(map.height());
+  const float zoom = std::min(rect.width() / width, rect.height() / height);
+  const ImVec2 min = {rect.min.x + 0.5f * (rect.width() - zoom * width),
+                      rect.min.y + 0.5f * (rect.height() - zoom * height)};
+  ImGui::GetWindowDrawList()->AddImage(id_of(map.texture()), min, {min.x + zoom * width, min.y + zoom * height});
+  const ImageError& e = result.error;
+  const std::string text =
+      fmt::format("FLIP {:.4f}   off by {:.3g} % (root mean square)   SSIM {:.4f}   at {} x {} pixels", e.flip,
+                  100 * e.relative, e.ssim, result.width, result.height);
+  const float margin = 12 * scale;
+  label(text, studio.side(1), {rect.min.x + margin, rect.min.y + margin}, 0, scale);
+}
+
+void navigate(Studio& studio, const Rect& rect, float scale) {
+  Settings& s = studio.settings;
+  const ImGuiIO& io = ImGui::GetIO();
+  ImGui::SetCursorScreenPos(rect.min);
+  ImGui::InvisibleButton(
+      "picture", {std::max(rect.width(), 1.0f), std::max(rect.height(), 1.0f)},
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  ImGui::SetItemAllowOverlap();
+  const float divider = rect.min.x + static_cast<float>(s.divider) * rect.width();
+  const bool at_divider = s.compare == Compare::kSplit && std::abs(io.MousePos.x - divider) < 9 * scale;
+  if (ImGui::IsItemHovered()) {
+    if (at_divider) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    if (io.MouseWheel != 0) zoom(s, io.MouseWheel);
+  }
+  bool& dragging_divider = *ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("divider"));
+  if (ImGui::IsItemActivated()) dragging_divider = at_divider && io.MouseDown[0];
+  if (!ImGui::IsItemActive()) return;
+  if (dragging_divider) {
+    s.divider = std::clamp((io.MousePos.x - rect.min.x) / std::max(rect.width(), 1.0f), 0.0f, 1.0f);
+    return;
+  }
+  const double right = io.MouseDelta.x / std::max(rect.height(), 1.0f),
+               up = -io.MouseDelta.y / std::max(rect.height(), 1.0f);
+  if (right == 0 && up == 0) return;
+  if (io.MouseDown[1])
+    turn_light(s, right, up);
+  else if (studio.ready() && (io.MouseDown[2] || io.KeyShift))
+    pan(s, studio.subject().model->extent, rect.width() / std::max(rect.height(), 1.0f), right, up);
+  else
+    orbit(s, right, up);
+}
+
+}  // namespace
+
+void viewport(Studio& studio, const Layout& layout) {
+  const Rect rect = {{layout.left, 0}, {layout.width - layout.right, layout.height}};
+  ImGui::SetNextWindowPos(rect.min);
+  ImGui::SetNextWindowSize({std::max(rect.width(), 1.0f), std::max(rect.height(), 1.0f)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2{0, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2{1, 1});
+  ImGui::Begin("viewport", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBackground |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PopStyleVar(2);
+  navigate(studio, rect, layout.scale);
+  if (studio.settings.compare == Compare::kDifference && studio.difference_fits())
+    draw_difference(studio, rect, layout.scale);
+  else if (studio.ready())
+    draw_pictures(studio, rect, layout.scale);
+  if (studio.side(studio.settings.side).can_cancel()) {
+    ImGui::SetCursorScreenPos({rect.min.x + 12 * layout.scale, rect.min.y + 46 * layout.scale});
+    if (ImGui::SmallButton("stop")) studio.side(studio.settings.side).cancel();
+    hint("Keeps what there is so far");
+  }
+  ImGui::End();
+}
+
+}  // namespace shlight::viewer

@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# Draws the pictures of docs/viewer.md, docs/images/viewer/*.png, with the tool of build/release (see demo.sh): the
+# window as it is, driven by scripts on a display that nobody sees.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+shlight=${SHLIGHT:-$PWD/build/release/bin/shlight}
+images=$PWD/docs/images/viewer
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir -p "$images"
+
+# shot NAME [ARGUMENT…] <SCRIPT
+shot() {
+  local name=$1
+  shift
+  { cat; printf '\nwait 64\nscreenshot %s\n' "$images/$name.png"; } >"$work/$name"
+  xvfb-run -a -s "-screen 0 1280x800x24 +extension GLX" "$shlight" view "$@" --script "$work/$name"
+  echo "$images/$name.png"
+}
+
+shot first </dev/null
+
+shot insight builtin:sphere --light builtin:sky:elevation=20,azimuth=-60 <<'END'
+set method irradiance
+set bands 3
+set insight on
+END
+
+shot degree builtin:sphere --light builtin:studio <<'END'
+set method irradiance
+set bands 4
+set show degree:2
+set mark-negative on
+set insight on
+set compare split
+set side b
+set method irradiance
+set show normals
+set side a
+END
+
+shot visibility builtin:scene <<'END'
+set show visibility
+set timing on
+spin 60
+END
+
+shot keys builtin:scene --light builtin:sky:elevation=8,azimuth=-110,turbidity=3 <<'END'
+set keys on
+END
+
+shot method builtin:knot --light builtin:studio <<'END'
+set method hybrid
+set bands 5
+set material ggx:alpha=0.15,f0=0.9/0.65/0.3
+set camera 20,12,1.15
+END
+
+# Both of one reference.
+shot difference builtin:knot --light builtin:studio <<END
+set camera 20,12,1.15
+set transfer interreflected
+set bands 3
+set side b
+set method reference
+set transfer interreflected
+set side a
+set compare split
+wait 64
+screenshot $images/split.png
+set compare difference
+END
