@@ -78,7 +78,8 @@ void add_reproduce(CLI::App& program, Run& run) {
       ->add_option("--samples", params.samples, "Of the thesis's Monte Carlo methods; the next square number is taken")
       ->capture_default_str()
       ->check(CLI::Range(9, kMaxTransferSamples).description(fmt::format("9 to {}", kMaxTransferSamples)));
-  command->add_flag("--quick", params.quick, "Smaller pictures, noisier references, fewer lights and frames");
+  command->add_flag("--quick", params.quick,
+                    "Smaller pictures, noisier references, fewer sizes, lights, bands and frames");
   command->add_flag("--json", arguments->json,
                     "Print all values on stdout as JSON, times apart from what is the same in every run");
   command->footer(

@@ -18,7 +18,7 @@ std::string describe_report(const Report& report, const ReportParams& params) {
   std::string html = fmt::format(
       "<p class=\"made\">Light: {}. Models: {}. {} samples where the thesis takes 10 000. Measured on {}{}.</p>\n",
       escape_xml(params.light), models.empty() ? "built-in ones" : models, params.samples, escape_xml(report.processor),
-      params.quick ? ", a quick report with small pictures and noisier references" : "");
+      params.quick ? ", a quick report: small pictures, noisier references, fewer sizes, lights and bands" : "");
   const auto missing = report.missing();
   if (missing.empty()) return html;
   html += "<div class=\"missing\"><b>This report is not complete.</b><ul>\n";

@@ -23,7 +23,8 @@ struct Studio {
   const Light& light;
   RenderLight render_light;
   RenderParams params;
-  int fine;  // see draw_fine
+  int fine;         // see draw_fine
+  int square_size;  // of anisotropic tables
   Image backdrop;
   double exposure;
 };
@@ -39,7 +40,7 @@ Studio make_studio(ReportSources& sources) {
   const int fine = sources.pick(2, 3);
   Image backdrop = draw_backdrop(scene, render_light, params, fine);
   const double exposure = auto_exposure(render_light.coefficients);
-  return {scene, light, std::move(render_light), params, fine, std::move(backdrop), exposure};
+  return {scene, light, std::move(render_light), params, fine, sources.pick(48, 128), std::move(backdrop), exposure};
 }
 
 // The one of all parts, made by the first that asks for it.
@@ -62,6 +63,7 @@ std::string add_shown(PartWriter& out, const Studio& studio, const std::string& 
 Image draw_reflectance(const Studio& studio, const Brdf& brdf, int bands) {
   ReflectanceTableParams table;
   table.bands = bands;
+  table.square_size = studio.square_size;
   const auto surfaces = make_surface_reflectances(studio.scene, brdf, table);
   RenderParams params = studio.params;
   params.bands = bands;
@@ -81,8 +83,8 @@ struct Pair {
 };
 
 void make_pair(const Pair& pair, SharedStudio& shared, ReportSources& sources, PartWriter& out) {
-  constexpr int kBands = 8;
   const Studio& studio = shared.get(sources);
+  const int bands = sources.pick(5, 8);
   std::string html = "<div class=\"group two\">\n";
   std::array<Reference, 2> truths;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -91,13 +93,13 @@ void make_pair(const Pair& pair, SharedStudio& shared, ReportSources& sources, P
       return true;
     };
     const auto brdf = make_brdf(pair.material[i]);
-    const Image drawn = draw_reflectance(studio, *brdf, kBands);
+    const Image drawn = draw_reflectance(studio, *brdf, bands);
     truths[i] = trace_material(studio, *brdf, sources, half);
     const PictureError error = measure_picture(drawn, truths[i]);
     add_error(out, pair.id[i], error);
     html += html_figure(add_shown(out, studio, pair.id[i], pair.title[i], drawn),
                         {fmt::format("<b>{}.</b>", pair.title[i]),
-                         fmt::format("<code>{}</code>, {} bands, error {}", pair.material[i], kBands, to_text(error))});
+                         fmt::format("<code>{}</code>, {} bands, error {}", pair.material[i], bands, to_text(error))});
   }
   const PictureError difference = measure_difference(truths[0], truths[1]);
   add_error(out, "difference", difference);

@@ -20,7 +20,7 @@ struct ReportParams {
   std::vector<std::string> models;  // as make_scene takes them: the first is the scene of figures 17 to 22, and each
                                     // has rows of its own in tables 2 and 4; empty: built-in ones only
   int samples = 10000;  // of the thesis's Monte Carlo methods, 9 … kMaxTransferSamples; the next square number is taken
-  bool quick = false;  // smaller pictures, noisier references, fewer lights and frames
+  bool quick = false;  // smaller pictures, noisier references, fewer sizes, lights, bands and frames
 };
 
 // A number that a part has measured.
