@@ -23,12 +23,14 @@ shot first </dev/null
 shot insight builtin:sphere --light builtin:sky:elevation=20,azimuth=-60 <<'END'
 set method irradiance
 set bands 3
+set window none
 set insight on
 END
 
 shot degree builtin:sphere --light builtin:studio <<'END'
 set method irradiance
 set bands 4
+set window none
 set show degree:2
 set mark-negative on
 set insight on
@@ -52,6 +54,7 @@ END
 shot method builtin:knot --light builtin:studio <<'END'
 set method hybrid
 set bands 5
+set window none
 set material ggx:alpha=0.15,f0=0.9/0.65/0.3
 set camera 20,12,1.15
 END

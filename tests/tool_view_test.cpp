@@ -10,6 +10,7 @@
 #include <memory>
 #include <sstream>
 
+#include "shlight/light/builtin_light.h"
 #include "shlight/light/coefficient_file.h"
 #include "tool_test_util.h"
 #include "virtual_display.h"
@@ -86,27 +87,26 @@ TEST_F(ToolView, TakesAPictureOfItsWindowWithoutHands) {
 }
 
 TEST_F(ToolView, ItsCommandDrawsTheSamePicture) {
-  const std::string sky = "set light builtin:sky:elevation=20,turbidity=4\n";
+  save_image(path("light.exr"), make_studio_light()->lat_long(64));
   const std::map<std::string, std::string> scripts = {
-      {"turned and moved", sky + "drag left 330 40 420 110\ndrag right 350 40 480 140\ndrag middle 400 80 430 60\n"
-                                 "wheel -2\nset bands 4\nset window auto\nset exposure 0.7\n"},
+      {"turned and moved",
+       "drag left 60 40 100 80\ndrag right 70 40 120 90\ndrag middle 80 80 95 70\nwheel -2\nset bands 4\n"
+       "set window auto\nset exposure 0.7\n"},
       {"transfer", "set method transfer\nset transfer cosine\nset bands 3\n"},
       {"reflectance",
-       "set method reflectance\nset bands 4\nset material ggx:alpha=0.3,f0=0.9/0.6/0.2\n"
-       "set light builtin:studio\nset tone-map none\n"},
-      {"hybrid",
-       sky + "set method hybrid\nset bands 3\nset material cook-torrance:m=0.3,f0=0.9\nset rotate-light 40\n"},
+       "set method reflectance\nset bands 4\nset material ggx:alpha=0.3,f0=0.9/0.6/0.2\nset tone-map none\n"},
+      {"hybrid", "set method hybrid\nset bands 3\nset material cook-torrance:m=0.3,f0=0.9\nset rotate-light 40\n"},
       {"one degree", "set bands 3\nset show degree:1\nset mark-negative on\nset background off\n"},
       {"normals", "set show normals\nset camera 120,-20,0.8\n"},
       {"visibility", "set method transfer\nset transfer cosine\nset show visibility\n"},
   };
-  std::string script;
+  std::string script = "resize 240 180\nframes 3\n";
   for (const auto& [name, settings] : scripts)
-    script += settings + "wait\npicture " + path(name + ".png") + "\ncommand " + path(name) +
-              "\nreset\nset light builtin:sky\n";
-  view_well(script);
+    script += settings + "wait\npicture " + path(name + ".png") + "\ncommand " + path(name) + "\nreset\n";
+  view_well(script, {"--light", path("light.exr")});
   for (const auto& [name, settings] : scripts) {
     const Image8 shown = load_image8(path(name + ".png"));
+    EXPECT_EQ(shown.width, 240) << name;
     EXPECT_GT(num_colors(shown), 3u) << name;
     EXPECT_LE(largest_difference(shown, draw_command(name)), 2) << name << ": " << text_of(path(name));
   }

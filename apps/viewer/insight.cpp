@@ -81,7 +81,7 @@ void Insight::draw_balloon(const Camera& camera, int width, int height) {
   if (!balloon_frame_ || balloon_frame_->width() != width || balloon_frame_->height() != height)
     balloon_frame_.emplace(width, height);
   Camera seen;
-  seen.azimuth = camera.azimuth, seen.elevation = camera.elevation, seen.zoom = 1.2;
+  seen.azimuth = camera.azimuth, seen.elevation = camera.elevation, seen.zoom = 1;
   const Extent ball;  // balloons have radius 1
   balloon_frame_->draw({*balloon_, ball, *balloon_renderer_, &*balloon_background_, {}},
                        {seen, {}, 0, ToneCurve::kFilmic});
