@@ -40,29 +40,43 @@ for window in none auto; do
 done
 side_by_side "$images/ringing.png" "$work"/ringing_{sphere,knot}_none.png "$work"/ringing_{sphere,knot}_auto.png
 
-# Every kind of material in three roughnesses, each with 3, 5 and 8 bands and hybrid.
+# Every kind of material in three roughnesses, each with 3, 5, 8 bands and hybrid.
+# material_row FILE MODEL CAMERA MATERIAL…
 material_row() {
-  local row=$1 roughness=0 pictures=() material how
-  shift
+  local file=$1 model=$2 camera=$3 pictures=() material how
+  shift 3
   for material in "$@"; do
     for how in '--bands 3' '--bands 5' '--bands 8' '--method hybrid'; do
       # shellcheck disable=SC2086
-      "$shlight" render builtin:sphere --light builtin:studio --material "$material" $how --camera 30,12 \
-        --size 110x110 --no-background -o "$work/material_${row}_${#pictures[@]}.png"
-      pictures+=("$work/material_${row}_${#pictures[@]}.png")
+      "$shlight" render "$model" --light builtin:studio --material "$material" $how --camera "$camera" \
+        --size 110x110 --no-background -o "$work/material_${#pictures[@]}.png"
+      pictures+=("$work/material_${#pictures[@]}.png")
     done
   done
-  oiiotool "${pictures[@]}" --mosaic:pad=2 12x1 -o "$work/materials_$row.png"
+  oiiotool "${pictures[@]}" --mosaic:pad=2 12x1 -o "$file"
 }
-material_row 1 ggx:alpha={0.05,0.2,0.5},f0=0.9/0.65/0.3
-material_row 2 ggx-aniso:ax={0.05,0.1,0.2},ay=0.5,f0=0.9/0.65/0.3
-material_row 3 cook-torrance:m={0.1,0.3,0.6},f0=0.9
-material_row 4 ward:rd=0.1/0.02/0.02,rs=0.4,sigma={0.05,0.15,0.4}
-material_row 5 ward-aniso:rd=0.02/0.05/0.1,rs=0.4,sx={0.05,0.1,0.2},sy=0.5
-material_row 6 blinn-phong:rd=0.05/0.1/0.05,rs=0.4,n={200,50,10}
-material_row 7 oren-nayar:rho=0.8/0.6/0.5,sigma={0,0.4,1}
-material_row 8 metallic-roughness:base=0.7/0.1/0.1,metallic=0,roughness={0.2,0.45,0.8}
-oiiotool "$work"/materials_{1,2,3,4,5,6,7,8}.png --mosaic:pad=2 1x8 -o "$images/materials.png"
+# material_sheet FILE MODEL CAMERA
+material_sheet() {
+  local file=$1 model=$2 camera=$3 row=0 rows=() materials
+  while read -ra materials; do
+    rows+=("$work/materials_$((++row)).png")
+    material_row "${rows[-1]}" "$model" "$camera" "${materials[@]}" </dev/null
+  done <<END
+$(echo ggx:alpha={0.05,0.2,0.5},f0=0.9/0.65/0.3)
+$(echo ggx-aniso:ax={0.05,0.1,0.2},ay=0.5,f0=0.9/0.65/0.3)
+$(echo cook-torrance:m={0.1,0.3,0.6},f0=0.9)
+$(echo ward:rd=0.1/0.02/0.02,rs=0.4,sigma={0.05,0.15,0.4})
+$(echo ward-aniso:rd=0.02/0.05/0.1,rs=0.4,sx={0.05,0.1,0.2},sy=0.5)
+$(echo blinn-phong:rd=0.05/0.1/0.05,rs=0.4,n={200,50,10})
+$(echo oren-nayar:rho=0.8/0.6/0.5,sigma={0,0.4,1})
+$(echo metallic-roughness:base=0.7/0.1/0.1,metallic=0,roughness={0.2,0.45,0.8})
+END
+  oiiotool "${rows[@]}" --mosaic:pad=2 1x8 -o "$file"
+}
+material_sheet "$images/materials.png" builtin:sphere 30,12
+if [[ -n ${SHLIGHT_TEST_DATA:-} ]]; then
+  material_sheet "$images/materials_head.png" "$SHLIGHT_TEST_DATA/models/dx_Head_Sad.x" 20,5,1.15
+fi
 
 # What compression costs: bytes of a vertex's transfer against the change of radiance under the built-in lights.
 bake_points() {

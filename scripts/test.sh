@@ -10,4 +10,4 @@ preset=${1:-dev}
 install_packages
 build "$preset"
 say "Testing build/$preset"
-ctest --preset "$preset" --output-on-failure
+ctest --preset "$preset" --output-on-failure --parallel "$(nproc)"

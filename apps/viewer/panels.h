@@ -9,9 +9,9 @@ namespace shlight::viewer {
 
 // What the panels ask to be done after the frame.
 struct Wishes {
-  bool copy_command = false, save_png = false, save_exr = false, export_coefficients = false, reset = false,
-       quit = false;
-  bool any() const { return copy_command || save_png || save_exr || export_coefficients || reset || quit; }
+  bool copy_command = false, save_png = false, save_exr = false, export_coefficients = false, reset = false;
+
+  bool any() const { return copy_command || save_png || save_exr || export_coefficients || reset; }
 };
 
 // Where things are, in pixels.

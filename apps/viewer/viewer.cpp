@@ -120,12 +120,8 @@ class Viewer {
   }
 
   static Wishes merged(const Wishes& a, const Wishes& b) {
-    return {a.copy_command || b.copy_command,
-            a.save_png || b.save_png,
-            a.save_exr || b.save_exr,
-            a.export_coefficients || b.export_coefficients,
-            a.reset || b.reset,
-            a.quit || b.quit};
+    return {a.copy_command || b.copy_command, a.save_png || b.save_png, a.save_exr || b.save_exr,
+            a.export_coefficients || b.export_coefficients, a.reset || b.reset};
   }
 
   // --- keys
