@@ -106,10 +106,9 @@ std::string make_reflectance_glsl(const ReflectanceGlslParams& params) {
   }
   code += "  plain = tinted = vec3(0.0);\n  vec4 texel;\n";
 
-  // Degree after degree, each a loop that runs once, for the reason told in sh_glsl.cpp.
   int loaded = -1;
   for (int l = 0; l < bands; ++l) {
-    code += "  for (int k = 0; k < u_once; ++k) {\n";
+    code += open_block(bands);
     // Stage f: the table's coefficients; those of negative m are zero where reflectance is isotropic.
     for (int m = params.isotropic ? 0 : -l; m <= l; ++m) {
       const int index = params.isotropic ? l * (l + 1) / 2 + m : coefficient_index(l, m);

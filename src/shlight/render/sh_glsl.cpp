@@ -65,9 +65,6 @@ std::string sum_over_degrees(int bands, int m, Degrees degrees) {
 
 // Σ u_sh[i] Y_i(n) with a block of straight-line code for each |m| [2].
 //
-// Each block but the first is a loop that runs once, as often as a uniform says. As one straight line it takes LLVM,
-// which compiles for Mesa's llvmpipe, a time that grows steeply: 1.3 s for six bands and 12 s for nine, against 0.4 s
-// and 0.7 s.
 std::string make_sum_glsl(int bands, Degrees degrees) {
   SHLIGHT_ASSERT_LE(1, bands);
   SHLIGHT_ASSERT_LE(bands, kMaxGlslBands);
@@ -82,7 +79,7 @@ std::string make_sum_glsl(int bands, Degrees degrees) {
       code += fmt::format("  float c{0} = x * c{1} - y * s{1}, s{0} = x * s{1} + y * c{1};\n", m, m - 1);
     const std::string plus = sum_over_degrees(bands, m, degrees), minus = sum_over_degrees(bands, -m, degrees);
     if (plus.empty()) continue;
-    code += fmt::format("  for (int k = 0; k < u_once; ++k) {{\n{}", q_definitions(bands, m));
+    code += open_block(bands) + q_definitions(bands, m);
     code += fmt::format("    sum += c{0} * {1} + s{0} * {2};\n  }}\n", m, plus, minus);
   }
   return code + "  return sum;\n}\n";
@@ -108,6 +105,11 @@ vec3 eval_sh(vec3 n) {{
 }
 
 }  // namespace
+
+std::string open_block(int bands) {
+  constexpr int kMaxStraightBands = 5;
+  return bands <= kMaxStraightBands ? "  {\n" : "  for (int k = 0; k < u_once; ++k) {\n";
+}
 
 std::string make_sh_glsl(int bands) {
   return make_sum_glsl(bands, Degrees::kAll);
