@@ -35,7 +35,7 @@ std::string rotation_options(const Rotation& r) {
   }
   std::string matrix;
   for (const Vec3d& row : r.rows)
-    for (const double v : {row.x, row.y, row.z}) matrix += (matrix.empty() ? "" : ",") + fmt::format("{:.7g}", v);
+    for (const double v : {row.x, row.y, row.z}) matrix += fmt::format("{}{:.7g}", matrix.empty() ? "" : ",", v);
   return " --rotate " + matrix;
 }
 

@@ -64,7 +64,6 @@ std::string sum_over_degrees(int bands, int m, Degrees degrees) {
 }
 
 // Σ u_sh[i] Y_i(n) with a block of straight-line code for each |m| [2].
-//
 std::string make_sum_glsl(int bands, Degrees degrees) {
   SHLIGHT_ASSERT_LE(1, bands);
   SHLIGHT_ASSERT_LE(bands, kMaxGlslBands);

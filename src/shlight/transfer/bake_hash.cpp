@@ -9,7 +9,7 @@ namespace shlight {
 namespace {
 
 // To be counted up where the same scene and params come to give other coefficients.
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 3;
 
 class Hash {
  public:

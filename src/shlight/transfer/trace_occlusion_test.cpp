@@ -147,6 +147,21 @@ TEST(Shadowed, ErrorFallsLikeThePowerThreeQuarters) {
   EXPECT_LT(fine, coarse / std::pow(16, 0.7)) << coarse << " to " << fine;
 }
 
+// Where a box stands on a floor, a few vertices around its foot have most of the error.
+TEST(Shadowed, ErrorOfFewVerticesIsKnownToo) {
+  const Scene scene = make_test_scene({make_sheet({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}, 20),
+                                       make_box({-0.7f, 1e-3f, -0.7f}, {0.7f, 1.5f, 0.7f}, 4, true)});
+  const Transfer truth = bake_transfer(scene, make_params(TransferKind::kShadowed, 16384));
+  for (const std::uint64_t seed : {11u, 12u, 13u}) {
+    BakeParams params = make_params(TransferKind::kShadowed, 0);
+    params.seed = seed;
+    const Transfer transfer = bake_transfer(scene, params);
+    const double error = relative_difference(transfer, truth);
+    // All vertices are in the pilot, and two pairs of samples differ in what they meet.
+    EXPECT_NEAR(transfer.estimated_error, error, 0.3 * error) << "seed " << seed;
+  }
+}
+
 TEST(Shadowed, AutomaticSamplesReachTheWantedErrorAndSayHowWell) {
   const Scene scene = make_small_scene();
   BakeParams truth_params = make_params(TransferKind::kShadowed, 16384);
