@@ -43,12 +43,17 @@ struct TransferToDraw {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
 };
 
+// Of a baked file, too, reflectance can be drawn without the shadows in it: --transfer cosine.
+bool wants_no_shadows(const RenderArguments& arguments) {
+  return arguments.method != "transfer" && arguments.kind_given && arguments.bake.kind == TransferKind::kCosine;
+}
+
 // The file as it was baked; refuses options that ask for another bake.
 TransferToDraw load_transfer(const RenderArguments& arguments) {
   TransferToDraw result = {load_baked(arguments.model), {}};
   const auto& [scene, transfer, info] = result.baked;
   const std::string accepted = "what it holds, or the model that it was baked from (" + info.model + ")";
-  if (arguments.kind_given && arguments.bake.kind != transfer.kind)
+  if (arguments.kind_given && arguments.bake.kind != transfer.kind && !wants_no_shadows(arguments))
     throw Error(arguments.model,
                 fmt::format("holds {} transfer, not {}", to_text(transfer.kind), to_text(arguments.bake.kind)),
                 accepted);
@@ -206,7 +211,8 @@ void run_render(const RenderArguments& arguments) {
   const bool is_reflectance = arguments.method == "reflectance" || arguments.method == "hybrid";
   // What is baked shadows surfaces that reflect by tables, too.
   const bool is_baked = (transfer || is_reflectance) && is_baked_file(arguments.model);
-  const bool bakes_now = !is_baked && (transfer || (is_reflectance && arguments.kind_given));
+  const bool bakes_now =
+      !is_baked && (transfer || (is_reflectance && arguments.kind_given && !wants_no_shadows(arguments)));
   TransferToDraw drawn;
   if (is_baked)
     drawn = load_transfer(arguments);
@@ -232,7 +238,8 @@ void run_render(const RenderArguments& arguments) {
   }
   const Scene& scene = drawn.baked.scene;
   std::optional<ShadowRatio> shadows;
-  if (is_reflectance && (is_baked || bakes_now)) shadows.emplace(scene, drawn.baked.transfer);
+  if (wants_no_shadows(arguments)) drawn.baked.transfer = {}, drawn.json.clear();
+  if (is_reflectance && drawn.baked.transfer.num_vertices() > 0) shadows.emplace(scene, drawn.baked.transfer);
   params.shadows = shadows ? &*shadows : nullptr;
   const RenderResult result = transfer         ? render_baked(drawn.baked, light, params, progress_bar("drawing"))
                               : is_reflectance ? draw_reflectance(arguments, scene, light, params, drawn.json)

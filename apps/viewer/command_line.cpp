@@ -68,17 +68,17 @@ std::string render_command(const Settings& settings, const Look& look, int width
   std::string text = "shlight render " + quoted(settings.model) + " --light " + quoted(settings.light);
   text += fmt::format(" --method {}", to_text(method));
   const bool baked = !is_builtin_scene(settings.model) && is_baked_file(settings.model);
+  const bool is_reflectance = method == Method::kReflectance || method == Method::kHybrid;
   if ((method == Method::kTransfer && !baked) || reference) text += transfer_options(look);
+  if (is_reflectance && baked) text += " --transfer cosine";  // the window shows it without the bake's shadows
   if (method == Method::kTransfer && !baked && look.samples > 0 && look.transfer != TransferKind::kCosine)
     text += fmt::format(" --samples {}", look.samples);
   if (reference)
     text += fmt::format(" --samples {}", std::max(samples, 1));
   else
     text += fmt::format(" --bands {}", look.bands);
-  if (!look.material.empty() && (reference || method == Method::kReflectance || method == Method::kHybrid))
-    text += " --material " + quoted(look.material);
-  if (look.shade == Shade::kVertex && (method == Method::kReflectance || method == Method::kHybrid))
-    text += " --shade vertex";
+  if (!look.material.empty() && (reference || is_reflectance)) text += " --material " + quoted(look.material);
+  if (look.shade == Shade::kVertex && is_reflectance) text += " --shade vertex";
   if (!reference && look.window != "none") text += " --window " + quoted(look.window);
   if (!reference) text += show_option(look);
   if (!reference && look.mark_negative) text += " --mark-negative";

@@ -16,6 +16,7 @@
 #include "shlight/light/light.h"
 #include "shlight/render/render.h"
 #include "shlight/render/render_test_util.h"
+#include "shlight/render/surface_renderer.h"
 #include "shlight/scene/load_scene.h"
 #include "shlight/scene/shapes.h"
 #include "shlight/sh/zonal.h"
@@ -286,10 +287,7 @@ TEST_F(ReflectanceRendererTest, HybridMirrorShowsTheLight) {
 
 TEST_F(ReflectanceRendererTest, BakedShadowsAreThoseOfTransfer) {
   // Of matte surfaces, reflectance times the share of irradiance is the transfer's own sum.
-  Scene scene = make_scene("builtin:scene");
-  for (Mesh& mesh : scene.meshes) mesh.colors.clear();
-  scene.textures.clear();
-  for (Material& material : scene.materials) material = {material.name, {1, 1, 1}, {}, {}};
+  const Scene scene = without_colors(make_scene("builtin:scene"));
   BakeParams bake;
   bake.kind = TransferKind::kShadowed;
   bake.bands = 3;
