@@ -130,6 +130,45 @@ ReflectanceTable make_reflectance_table(const Brdf& brdf, const ReflectanceTable
   return table;
 }
 
+std::vector<ColoredTable> split_colors(const ReflectanceTable& table, double tolerance) {
+  SHLIGHT_ASSERT_EQ(table.channels, 3);
+  constexpr std::size_t kParts = 2;
+  const std::size_t entry = static_cast<std::size_t>(table.coefficients()), count = table.values.size() / 3;
+  const auto color_at = [](const std::vector<float>& values, std::size_t i) {
+    return Vec3d{values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+  };
+  // Gram and Schmidt's way: the largest colour that is left is the next one.
+  std::vector<float> rest = table.values;
+  std::vector<ColoredTable> parts;
+  while (parts.size() < kParts) {
+    Vec3d color = {1, 0, 0};
+    double largest = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      if (const Vec3d c = color_at(rest, i); dot(c, c) > largest) color = c, largest = dot(c, c);
+    color = (1 / std::sqrt(dot(color, color))) * color;
+    ColoredTable part = {vec_cast<float>(color), {table.bands, 1, table.width, table.height, {}}};
+    part.grey.values.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3d c = color_at(rest, i);
+      const double share = dot(c, color);
+      part.grey.values[i] = static_cast<float>(share);
+      const Vec3f left = vec_cast<float>(c - share * color);
+      rest[3 * i] = left.x, rest[3 * i + 1] = left.y, rest[3 * i + 2] = left.z;
+    }
+    parts.push_back(std::move(part));
+
+    bool is_all = true;
+    for (std::size_t at = 0; at < rest.size() && is_all; at += 3 * entry) {
+      float all = 0, left = 0;
+      for (std::size_t i = at; i < at + 3 * entry; ++i)
+        all = std::max(all, std::abs(table.values[i])), left = std::max(left, std::abs(rest[i]));
+      is_all = left <= tolerance * all;
+    }
+    if (is_all) return parts;
+  }
+  return {};
+}
+
 RgbCoefficients eval_reflectance_table(const ReflectanceTable& table, Vec3d v) {
   const double sine = std::sqrt(v.x * v.x + v.y * v.y), position = view_position(v.z);
   const double cos_phi = sine > 0 ? v.x / sine : 1, sin_phi = sine > 0 ? v.y / sine : 0;

@@ -73,6 +73,17 @@ double cosine_of_position(double position);
 // mirrored needs a quarter of them. Throws what a model of one's own throws.
 ReflectanceTable make_reflectance_table(const Brdf& brdf, const ReflectanceTableParams& params = {});
 
+// A grey table and the colour that it is to be multiplied by.
+struct ColoredTable {
+  Vec3f color;  // of length 1
+  ReflectanceTable grey;
+};
+
+// A table of three channels as the sum of one or two grey ones. That is all there is to a model whose colour is that of
+// one Fresnel term after Schlick, or those of a diffuse and a specular part. None where two are off by more than
+// `tolerance` of the largest |coefficient| of a view, as for measured materials.
+std::vector<ColoredTable> split_colors(const ReflectanceTable& table, double tolerance = 1e-5);
+
 // F*(v), v of unit length and above the horizon, from the table: what a shader does, in double.
 RgbCoefficients eval_reflectance_table(const ReflectanceTable& table, Vec3d v);
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "shlight/brdf/brdf_test_util.h"
 #include "shlight/brdf/make_brdf.h"
@@ -125,6 +127,39 @@ TEST(ReflectanceTable, ColourHasThreeChannels) {
     for (std::size_t i = 0; i < one.values.size(); ++i)
       EXPECT_NEAR(coloured.values[3 * i + channel], one.values[i], 1e-4);
   }
+}
+
+TEST(ReflectanceTable, ColorsAreSplitIntoGreyTables) {
+  const std::pair<const char*, std::size_t> materials[] = {{"ggx:alpha=0.3,f0=0.9/0.6/0.2", 2},
+                                                           {"ggx-aniso:ax=0.1,ay=0.4,f0=0/0.1/1", 2},
+                                                           {"ward-aniso:rd=0.3/0.1/0.1,rs=0.2", 2},
+                                                           {"ward:rd=0.6/0.2/0.4,rs=0.3/0.1/0.2", 1},
+                                                           {"lambert:rho=0/0.5/0", 1}};
+  ReflectanceTableParams params;
+  params.polar_size = params.square_size = 32;
+  for (const auto& [material, count] : materials) {
+    const ReflectanceTable table = make_reflectance_table(*make_brdf(material), params);
+    const std::vector<ColoredTable> parts = split_colors(table);
+    ASSERT_EQ(parts.size(), count) << material;
+    const Vec3d v = direction_at(50, 20);
+    RgbCoefficients sum(table.bands);
+    for (const ColoredTable& part : parts) {
+      EXPECT_EQ(part.grey.channels, 1);
+      const RgbCoefficients grey = eval_reflectance_table(part.grey, v);
+      for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += grey[i].r * Rgb{part.color.x, part.color.y, part.color.z};
+    }
+    const RgbCoefficients expected = eval_reflectance_table(table, v);
+    EXPECT_LT(largest_error(sum, expected), 1e-5 * largest_value(expected)) << material;
+  }
+
+  // Three parts with colours of their own, as something measured may have.
+  const auto red = make_brdf("ggx:alpha=0.1"), green = make_brdf("ggx:alpha=0.3"), blue = make_brdf("oren-nayar");
+  const auto measured = make_function_brdf(
+      [&](Vec3d s, Vec3d v) {
+        return Rgb{red->eval(s, v).r, green->eval(s, v).r, blue->eval(s, v).r};
+      },
+      BrdfSymmetry::kIsotropic, false);
+  EXPECT_TRUE(split_colors(make_reflectance_table(*measured, params)).empty());
 }
 
 TEST(ReflectanceTable, HasTheSameBitsOnAnyNumberOfThreads) {

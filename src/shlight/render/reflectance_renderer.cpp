@@ -28,6 +28,11 @@ int num_layers(int bands, int channels, bool isotropic) {
   return channels == 3 ? numbers / 3 : (numbers + 3) / 4;
 }
 
+// Floats where OpenGL interpolates them, else half floats, which it always does.
+GLenum table_format() {
+  return epoxy_has_gl_extension("GL_OES_texture_float_linear") ? GL_RGBA32F : GL_RGBA16F;
+}
+
 // A layer for every texel of an entry, as reflectance_texel of reflect.glsl reads them; after them, where there is a
 // highlight, its plain and its tinted albedo.
 gl::Texture upload_table(const SurfaceReflectance& surface) {
@@ -48,9 +53,9 @@ gl::Texture upload_table(const SurfaceReflectance& surface) {
 
   gl::Texture texture = gl::make_texture();
   glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id());
-  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA32F, plain.width, plain.height, all_layers);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, table_format(), plain.width, plain.height, all_layers);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   std::vector<float> values(4 * entries);
   for (int layer = 0; layer < layers; ++layer) {
     for (std::size_t at = 0; at < entries; ++at)
@@ -102,7 +107,7 @@ gl::Texture upload_cube(const CubeFaces& faces, double unit) {
 }  // namespace
 
 gl::Program ReflectanceRenderer::make_program(const Kind& kind, const RgbCoefficients& radiance, Shade shade) const {
-  const auto& [channels, isotropic, hybrid] = kind;
+  const auto& [channels, isotropic, colored, hybrid] = kind;
   if (channels == 0) {
     gl::Program program(shaders::mesh_vert, shaders::surface_frag,
                         std::string(shaders::irradiance_frag) + make_irradiance_glsl(radiance.bands()));
@@ -111,6 +116,7 @@ gl::Program ReflectanceRenderer::make_program(const Kind& kind, const RgbCoeffic
     return program;
   }
   std::string defines = isotropic ? "" : "#define ANISOTROPIC\n";
+  if (colored) defines += "#define COLORED\n";
   if (hybrid)
     defines += fmt::format("#define HIGHLIGHT_LAYER {}\n#define LOBE_TAPS {}\n",
                            num_layers(radiance.bands(), channels, isotropic), kLobeTaps);
@@ -135,13 +141,14 @@ ReflectanceRenderer::ReflectanceRenderer(std::span<const SurfaceReflectance> sur
     // Tables made beside a highlight leave out what it reflects.
     if (cubes.empty()) SHLIGHT_ASSERT_EQ(surface.highlight.has_value(), false);
     const bool hybrid = surface.highlight.has_value();
-    const Kind kind = {channels_of(surface), !surface.plain || surface.plain->isotropic(), hybrid};
+    const Kind kind = {channels_of(surface), !surface.plain || surface.plain->isotropic(), surface.colors.has_value(),
+                       hybrid};
     if (surface.plain) SHLIGHT_ASSERT_EQ(surface.plain->bands, radiance.bands());
     if (!programs_.contains(kind)) programs_.emplace(kind, make_program(kind, radiance, shade));
     surfaces_.push_back({&programs_.at(kind), surface.plain ? upload_table(surface) : gl::Texture(),
                          hybrid ? upload_cube(cubes[i], unit) : gl::Texture(),
                          hybrid ? surface.highlight->lobe.slopes : std::vector<float>(),
-                         hybrid && surface.highlight->lobe.wide_along_x});
+                         hybrid && surface.highlight->lobe.wide_along_x, surface.colors});
     needs_tangents_ = needs_tangents_ || !kind.isotropic;
   }
 }
@@ -170,6 +177,10 @@ void ReflectanceRenderer::draw(const GpuScene& scene, const View& view, const Ro
     surface.program->use();
     surface.program->set("u_slopes", surface.slopes);
     surface.program->set("u_wide_along_x", surface.wide_along_x ? 1 : 0);
+    if (surface.colors) {
+      surface.program->set("u_plain_color", surface.colors->plain);
+      surface.program->set("u_tinted_color", surface.colors->tinted);
+    }
     return *surface.program;
   };
   scene.draw(program_of, view, light_to_world);

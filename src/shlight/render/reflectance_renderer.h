@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -58,6 +59,7 @@ class ReflectanceRenderer {
   struct Kind {
     int channels = 0;  // of ReflectanceGlslParams; 0: Lambertian, without a table
     bool isotropic = true;
+    bool colored = false;  // ReflectanceColors
     bool hybrid = false;
     auto operator<=>(const Kind&) const = default;
   };
@@ -66,6 +68,7 @@ class ReflectanceRenderer {
     gl::Texture table, residual;
     std::vector<float> slopes;  // of LobeFromAbove
     bool wide_along_x;
+    std::optional<ReflectanceColors> colors;
   };
 
   gl::Program make_program(const Kind& kind, const RgbCoefficients& radiance, Shade shade) const;

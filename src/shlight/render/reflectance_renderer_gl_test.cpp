@@ -7,12 +7,15 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shlight/brdf/make_brdf.h"
 #include "shlight/brdf/metallic_roughness.h"
 #include "shlight/image/environment.h"
+#include "shlight/image/tone_map.h"
 #include "shlight/light/light.h"
 #include "shlight/render/render.h"
 #include "shlight/render/render_test_util.h"
@@ -109,12 +112,87 @@ TEST_F(ReflectanceRendererTest, SphereIsTheSumInDouble) {
   for (const int bands : {1, 3, 5})
     for (const char* material :
          {"lambert", "oren-nayar:sigma=0.6", "ward", "cook-torrance:m=0.3", "ggx:alpha=0.4,f0=0.9/0.6/0.2",
-          "ggx-aniso:ax=0.2,ay=0.5", "ward-aniso:rd=0.3/0.1/0.1"}) {
-      const auto surfaces = make_surface_reflectances(sphere_, *make_brdf(material), table_params(bands));
+          "ggx-aniso:ax=0.2,ay=0.5", "ward-aniso:rd=0.3/0.1/0.1", "ward:rd=0.6/0.2/0.4,rs=0.3/0.1/0.2"}) {
+      const auto brdf = make_brdf(material);
+      const auto surfaces = make_surface_reflectances(sphere_, *brdf, table_params(bands));
+      const SurfaceReflectance whole = {make_reflectance_table(*brdf, table_params(bands)), {}, {}, {}};
       const RgbCoefficients light = test_light(bands);
-      expect_as_in_double(draw(sphere_, surfaces, light, parallel_params(bands)), surfaces[0], base_color_, light,
+      expect_as_in_double(draw(sphere_, surfaces, light, parallel_params(bands)), whole, base_color_, light,
                           std::string(material) + ", bands " + std::to_string(bands));
     }
+}
+
+// Where on the unit sphere the middle of a pixel looks, and from where, in the world; nothing beside it, where it is
+// nearly edge-on, and at its poles.
+struct SeenPoint {
+  Vec3d normal, to_eye;
+};
+std::optional<SeenPoint> seen_on_unit_sphere(const View& view, double x, double y) {
+  // Columns of the view's matrix are orthogonal and of one length.
+  const Mat4d& m = view.world_to_view;
+  const Vec3d columns[] = {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}, offset = {m[12], m[13], m[14]};
+  const auto to_world = [&](Vec3d d) {
+    return (1 / dot(columns[0], columns[0])) * Vec3d{dot(columns[0], d), dot(columns[1], d), dot(columns[2], d)};
+  };
+  const Vec3d eye = to_world(-1.0 * offset);
+  const Vec3d ray = to_world({x / view.view_to_clip[0], y / view.view_to_clip[5], -1});
+  const double a = dot(ray, ray), b = dot(ray, eye), root = b * b - a * (dot(eye, eye) - 1);
+  if (root < 0) return std::nullopt;
+  const Vec3d n = eye + (-b - std::sqrt(root)) / a * ray, to_eye = eye - n;
+  const Vec3d v = (1 / std::sqrt(dot(to_eye, to_eye))) * to_eye;
+  // At the poles the lathe's grooves turn within a triangle.
+  if (dot(n, v) < 0.25 || std::abs(n.y) > 0.95) return std::nullopt;
+  return SeenPoint{n, v};
+}
+
+// The picture, perspective, exposed and tone mapped, is the sum in double to one of its steps.
+TEST_F(ReflectanceRendererTest, PictureIsTheSumInDoubleToOneStep) {
+  const Scene sphere = make_test_scene(make_ellipsoid({1, 1, 1}, 512), base_color_);
+  RenderParams params;
+  params.width = 120, params.height = 90;
+  params.camera.zoom = 1.3;
+  const View view = make_view(params.camera, scene_extent(sphere), 120.0 / 90);
+  const std::pair<int, const char*> cases[] = {{3, "cook-torrance:m=0.4,f0=0.5"},
+                                               {5, "ggx:alpha=0.2,f0=0.9/0.6/0.2"},
+                                               {5, "ggx-aniso:ax=0.1,ay=0.4,f0=0.9/0.6/0.3"},
+                                               {5, "ward-aniso:rd=0.3/0.1/0.1"},
+                                               {8, "oren-nayar-full:sigma=0.7"},
+                                               {8, "ggx-aniso:ax=0.1,ay=0.4,f0=0.9/0.6/0.3"}};
+  for (const auto& [bands, material] : cases) {
+    const auto brdf = make_brdf(material);
+    ReflectanceTableParams size = table_params(bands);
+    size.square_size = 32;  // whatever is between entries, both find it there
+    const ReflectanceTable table = make_reflectance_table(*brdf, size);
+    const RgbCoefficients light = test_light(bands);
+    const double exposure = auto_exposure(light);
+    params.bands = bands;
+    const auto surfaces = make_surface_reflectances(sphere, *brdf, size);
+    const Image8 picture = render_reflectance(sphere, surfaces, {light, {}}, params).picture;
+    int count = 0;
+    double error = 0, brightest = 0;
+    for (int y = 0; y < params.height; ++y)
+      for (int x = 0; x < params.width; ++x) {
+        const auto seen =
+            seen_on_unit_sphere(view, 2 * (x + 0.5) / params.width - 1, 1 - 2 * (y + 0.5) / params.height);
+        if (!seen) continue;
+        const Vec3d n = seen->normal, along = {n.z, 0, -n.x};
+        const Vec3d t = (1 / std::sqrt(dot(along, along))) * along, b = cross(n, t);
+        const Vec3d v = {dot(t, seen->to_eye), dot(b, seen->to_eye), dot(n, seen->to_eye)};
+        const Rgb radiance = reflect_light(table, v, rotate(Rotation{{t, b, n}}, light));
+        const Rgb expected = tone_map(exposure * radiance, params.curve);
+        const std::size_t at = 4 * (static_cast<std::size_t>(y) * params.width + x);
+        const double values[] = {expected.r, expected.g, expected.b};
+        for (std::size_t k = 0; k < 3; ++k) {
+          error = std::max(error, std::abs(picture.values[at + k] - 255 * encode_srgb(values[k])));
+          brightest = std::max(brightest, static_cast<double>(picture.values[at + k]));
+        }
+        ++count;
+      }
+    EXPECT_GT(count, 2000);
+    EXPECT_GT(brightest, 100);
+    // A step, and the half that it is rounded by.
+    EXPECT_LT(error, 1.5) << material << ", " << bands << " bands";
+  }
 }
 
 TEST_F(ReflectanceRendererTest, GlossyMaterialsOfScenesTakeTheirBaseColors) {
@@ -130,6 +208,7 @@ TEST_F(ReflectanceRendererTest, GlossyMaterialsOfScenesTakeTheirBaseColors) {
     const Rgb base = {base_color_.x, base_color_.y, base_color_.z};
     const SurfaceReflectance whole = {
         make_reflectance_table(*make_metallic_roughness(base, gloss.metallic, gloss.roughness), table_params(5)),
+        {},
         {},
         {}};
     expect_as_in_double(image, whole, base_color_, light, std::to_string(gloss.metallic));

@@ -53,7 +53,16 @@ SurfaceReflectance make_glossy(const MetallicRoughness& gloss, const Reflectance
     }
   }
   subtract(black, white);
-  return {std::move(black), std::move(white), std::move(highlight)};
+  return {std::move(black), std::move(white), {}, std::move(highlight)};
+}
+
+// Two grey tables are two thirds of the numbers to look up and to turn, one is a third.
+void use_grey_tables(SurfaceReflectance& surface) {
+  std::vector<ColoredTable> parts = split_colors(*surface.plain);
+  if (parts.empty()) return;
+  surface.colors = {parts[0].color, parts.size() > 1 ? parts[1].color : Vec3f{}};
+  surface.plain = std::move(parts[0].grey);
+  if (parts.size() > 1) surface.tinted = std::move(parts[1].grey);
 }
 
 }  // namespace
@@ -79,8 +88,9 @@ std::vector<SurfaceReflectance> make_surface_reflectances(const Scene& scene, co
 
 std::vector<SurfaceReflectance> make_surface_reflectances(const Scene& scene, const Brdf& brdf,
                                                           const ReflectanceTableParams& params, bool highlights) {
-  SurfaceReflectance surface = {make_reflectance_table(brdf, params), {}, {}};
+  SurfaceReflectance surface = {make_reflectance_table(brdf, params), {}, {}, {}};
   if (highlights) surface.highlight = make_highlight(brdf, params, *surface.plain);
+  if (surface.plain->channels == 3) use_grey_tables(surface);
   return {scene.materials.size(), surface};
 }
 

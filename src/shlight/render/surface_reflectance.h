@@ -21,12 +21,18 @@ struct SurfaceHighlight {
   LobeFromAbove lobe;
 };
 
+// The colours by which the grey tables of a model are multiplied, instead of white and the base colour.
+struct ReflectanceColors {
+  Vec3f plain, tinted;
+};
+
 // How a surface reflects, as reflectance coefficients of all views: radiance = Σ L_i (plain_i + base colour ·
 // tinted_i), where the base colour is that of the material, the vertices and the texture together. Without any table, a
 // Lambertian surface of its base colour.
 struct SurfaceReflectance {
   std::optional<ReflectanceTable> plain;
   std::optional<ReflectanceTable> tinted;  // grey and of the size of `plain`, which is then there and grey too
+  std::optional<ReflectanceColors> colors;
   std::optional<SurfaceHighlight> highlight;
 };
 
