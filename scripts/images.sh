@@ -78,6 +78,22 @@ if [[ -n ${SHLIGHT_TEST_DATA:-} ]]; then
   material_sheet "$images/materials_head.png" "$SHLIGHT_TEST_DATA/models/dx_Head_Sad.x" 20,5,1.15
 fi
 
+# From mirror to satin by the hybrid method; brushed metal beside the path-traced one.
+hybrid=()
+for alpha in 0.01 0.04 0.1 0.25; do
+  "$shlight" render builtin:sphere --light builtin:sky:elevation=25,azimuth=-60,turbidity=3 --method hybrid \
+    --material "ggx:alpha=$alpha,f0=0.95/0.7/0.35" --camera 30,10,1.1 --size 200x220 -o "$work/hybrid_$alpha.png"
+  hybrid+=("$work/hybrid_$alpha.png")
+done
+for method in hybrid reference; do
+  options=(--method hybrid)
+  if [[ $method == reference ]]; then options=(--method reference --transfer cosine --samples 1024); fi
+  "$shlight" render builtin:knot --light builtin:sky:elevation=25,azimuth=-60,turbidity=3 "${options[@]}" \
+    --material ggx-aniso:ax=0.08,ay=0.35,f0=0.9/0.7/0.5 --camera 30,10,1.2 --size 220x220 -o "$work/hybrid_$method.png"
+  hybrid+=("$work/hybrid_$method.png")
+done
+side_by_side "$images/hybrid.png" "${hybrid[@]}"
+
 # What compression costs: bytes of a vertex's transfer against the change of radiance under the built-in lights.
 bake_points() {
   local points=$1 compression

@@ -116,7 +116,7 @@ void Side::request_tables(const Subject& subject, const Look& look) {
           tables->surfaces = make_surface_reflectances(scene, params, hybrid, progress);
         else
           tables->surfaces = make_surface_reflectances(scene, *make_brdf(look.material), params, hybrid);
-        if (hybrid) tables->cubes = make_highlight_cubes(tables->surfaces, light, look.bands, progress);
+        if (hybrid) tables->highlights = make_highlight_light(tables->surfaces, light, look.bands, progress);
         publish(tables);
       },
       false);
@@ -230,7 +230,8 @@ bool Side::build_renderer(const Subject& subject, const Look& look) {
           TransferRenderer(*transfer_->transfer, light, subject.model->is_baked ? content.info.bits : 32));
     bytes_ = transfer_->transfer->coefficients.size() * sizeof(float);
   } else if (tables_ready) {
-    renderer_.emplace(ReflectanceRenderer(tables_->surfaces, light, look.shade, tables_->cubes, scale_.unit));
+    renderer_.emplace(ReflectanceRenderer(tables_->surfaces, light, look.shade,
+                                          tables_->highlights ? &*tables_->highlights : nullptr, scale_.unit));
     bytes_ = bytes_of(tables_->surfaces);
   } else {
     renderer_.emplace(IrradianceRenderer(light));

@@ -9,7 +9,7 @@
 #include "model_asset.h"
 #include "settings.h"
 #include "shlight/render/frame_renderer.h"
-#include "shlight/render/highlight_cubes.h"
+#include "shlight/render/highlight_light.h"
 #include "shlight/truth/path_tracer.h"
 #include "task.h"
 
@@ -69,7 +69,7 @@ class Side {
   struct Tables {
     std::string key;
     std::vector<SurfaceReflectance> surfaces;
-    std::vector<CubeFaces> cubes;
+    std::optional<HighlightLight> highlights;
   };
   struct BakedTransfer {
     std::string key;

@@ -9,7 +9,8 @@ namespace shlight {
 
 IrradianceRenderer::IrradianceRenderer(const RgbCoefficients& radiance)
     : program_(shaders::mesh_vert, shaders::surface_frag,
-               std::string(shaders::irradiance_frag) + make_irradiance_glsl(radiance.bands())) {
+               std::string(shaders::seen_normal_glsl) + std::string(shaders::irradiance_frag) +
+                   make_irradiance_glsl(radiance.bands())) {
   set_radiance(radiance);
 }
 

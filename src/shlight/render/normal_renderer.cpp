@@ -4,7 +4,9 @@
 
 namespace shlight {
 
-NormalRenderer::NormalRenderer() : program_(shaders::mesh_vert, shaders::surface_frag, shaders::normals_frag) {}
+NormalRenderer::NormalRenderer()
+    : program_(shaders::mesh_vert, shaders::surface_frag,
+               std::string(shaders::seen_normal_glsl) + std::string(shaders::normals_frag)) {}
 
 void NormalRenderer::draw(const GpuScene& scene, const View& view) const {
   program_.use();

@@ -12,6 +12,7 @@
 #include "shaders.h"
 #include "shlight/core/assert.h"
 #include "shlight/render/reflectance_glsl.h"
+#include "shlight/render/render_light.h"
 #include "shlight/render/sh_glsl.h"
 
 namespace shlight {
@@ -104,13 +105,29 @@ gl::Texture upload_cube(const CubeFaces& faces, double unit) {
   return texture;
 }
 
+// One row, from slope 0 to infinity.
+gl::Texture upload_slope_density(const std::vector<float>& density) {
+  gl::Texture texture = gl::make_texture();
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  const auto width = static_cast<GLsizei>(density.size());
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_R16F, width, 1);
+  for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+    glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
+  for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+    glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, 1, GL_RED, GL_FLOAT, density.data());
+  gl::check_errors("a lobe's texture");
+  return texture;
+}
+
 }  // namespace
 
 gl::Program ReflectanceRenderer::make_program(const Kind& kind, const RgbCoefficients& radiance, Shade shade) const {
-  const auto& [channels, isotropic, colored, hybrid] = kind;
+  const auto& [channels, isotropic, colored, hybrid, sun] = kind;
   if (channels == 0) {
     gl::Program program(shaders::mesh_vert, shaders::surface_frag,
-                        std::string(shaders::irradiance_frag) + make_irradiance_glsl(radiance.bands()));
+                        std::string(shaders::seen_normal_glsl) + std::string(shaders::irradiance_frag) +
+                            make_irradiance_glsl(radiance.bands()));
     program.use();
     set_irradiance_uniforms(program, radiance);
     return program;
@@ -120,40 +137,72 @@ gl::Program ReflectanceRenderer::make_program(const Kind& kind, const RgbCoeffic
   if (hybrid)
     defines += fmt::format("#define HIGHLIGHT_LAYER {}\n#define LOBE_TAPS {}\n",
                            num_layers(radiance.bands(), channels, isotropic), kLobeTaps);
+  if (sun) defines += fmt::format("#define SUN\n#define CHANNELS {}\n", channels);
   const std::string reflect =
       defines + std::string(shaders::reflect_glsl) + make_reflectance_glsl({radiance.bands(), channels, isotropic});
-  gl::Program program = shade == Shade::kPixel ? gl::Program(shaders::mesh_vert, shaders::surface_frag,
-                                                             std::string(shaders::reflectance_frag) + reflect)
-                                               : gl::Program(std::string(shaders::reflectance_vertex_vert) + reflect,
-                                                             shaders::surface_frag, shaders::reflectance_vertex_frag);
+  gl::Program program =
+      shade == Shade::kPixel
+          ? gl::Program(shaders::mesh_vert, shaders::surface_frag,
+                        std::string(shaders::seen_normal_glsl) + std::string(shaders::reflectance_frag) + reflect)
+          : gl::Program(std::string(shaders::reflectance_vertex_vert) + reflect, shaders::surface_frag,
+                        shaders::reflectance_vertex_frag);
   program.use();
   program.set("u_reflectance", 1);
   program.set("u_residual", 2);
+  program.set("u_slope_density", 3);
   set_radiance_uniforms(program, radiance);
   return program;
 }
 
 ReflectanceRenderer::ReflectanceRenderer(std::span<const SurfaceReflectance> surfaces, const RgbCoefficients& radiance,
-                                         Shade shade, std::span<const CubeFaces> cubes, double unit) {
-  if (!cubes.empty()) SHLIGHT_ASSERT_EQ(cubes.size(), surfaces.size());
+                                         Shade shade, const HighlightLight* highlights, double unit)
+    : radiance_(radiance), sun_coefficients_(radiance.bands()) {
+  if (highlights) {
+    SHLIGHT_ASSERT_EQ(highlights->surfaces.size(), surfaces.size());
+    sun_coefficients_ = scaled(unit, highlights->sun_coefficients);
+    SHLIGHT_ASSERT_EQ(sun_coefficients_.bands(), radiance.bands());
+    if (highlights->sun) {
+      const Rgb c = unit * highlights->sun->irradiance;
+      to_sun_ = vec_cast<float>(highlights->sun->direction);
+      sun_irradiance_ = vec_cast<float>(Vec3d{c.r, c.g, c.b});
+    }
+  }
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    const SurfaceReflectance& surface = surfaces[i];
+    const SurfaceReflectance& reflectance = surfaces[i];
     // Tables made beside a highlight leave out what it reflects.
-    if (cubes.empty()) SHLIGHT_ASSERT_EQ(surface.highlight.has_value(), false);
-    const bool hybrid = surface.highlight.has_value();
-    const Kind kind = {channels_of(surface), !surface.plain || surface.plain->isotropic(), surface.colors.has_value(),
-                       hybrid};
-    if (surface.plain) SHLIGHT_ASSERT_EQ(surface.plain->bands, radiance.bands());
+    if (!highlights) SHLIGHT_ASSERT_EQ(reflectance.highlight.has_value(), false);
+    const bool isotropic = !reflectance.plain || reflectance.plain->isotropic();
+    Kind kind = {channels_of(reflectance), isotropic, reflectance.colors.has_value()};
+    Surface surface;
+    surface.colors = reflectance.colors;
+    if (reflectance.plain) {
+      SHLIGHT_ASSERT_EQ(reflectance.plain->bands, radiance.bands());
+      surface.table = upload_table(reflectance);
+    }
+    if (reflectance.highlight) {
+      const LobeFromAbove& lobe = reflectance.highlight->lobe;
+      const auto& [cube, sun_share] = highlights->surfaces[i];
+      kind.hybrid = true;
+      kind.sun = sun_share > 0;
+      surface.residual = upload_cube(cube, unit);
+      surface.slopes = lobe.slopes;
+      surface.wide_along_x = lobe.wide_along_x;
+      if (kind.sun) {
+        surface.slope_density = upload_slope_density(lobe.slope_density);
+        surface.slope_scale = vec_cast<float>(Vec3d{lobe.wide_along_x ? lobe.slim_over_wide : 1,
+                                                    lobe.wide_along_x ? 1 : lobe.slim_over_wide, lobe.width});
+      }
+      surface.sun_share = sun_share;
+    }
     if (!programs_.contains(kind)) programs_.emplace(kind, make_program(kind, radiance, shade));
-    surfaces_.push_back({&programs_.at(kind), surface.plain ? upload_table(surface) : gl::Texture(),
-                         hybrid ? upload_cube(cubes[i], unit) : gl::Texture(),
-                         hybrid ? surface.highlight->lobe.slopes : std::vector<float>(),
-                         hybrid && surface.highlight->lobe.wide_along_x, surface.colors});
-    needs_tangents_ = needs_tangents_ || !kind.isotropic;
+    surface.program = &programs_.at(kind);
+    surfaces_.push_back(std::move(surface));
+    needs_tangents_ = needs_tangents_ || !isotropic;
   }
 }
 
 void ReflectanceRenderer::set_radiance(const RgbCoefficients& radiance) {
+  radiance_ = radiance;
   for (const auto& [kind, program] : programs_) {
     program.use();
     kind.channels == 0 ? set_irradiance_uniforms(program, radiance) : set_radiance_uniforms(program, radiance);
@@ -174,14 +223,26 @@ void ReflectanceRenderer::draw(const GpuScene& scene, const View& view, const Ro
     glBindTexture(GL_TEXTURE_2D_ARRAY, surface.table.id());
     glActiveTexture(GL_TEXTURE2);
     glBindTexture(GL_TEXTURE_CUBE_MAP, surface.residual.id());
-    surface.program->use();
-    surface.program->set("u_slopes", surface.slopes);
-    surface.program->set("u_wide_along_x", surface.wide_along_x ? 1 : 0);
-    if (surface.colors) {
-      surface.program->set("u_plain_color", surface.colors->plain);
-      surface.program->set("u_tinted_color", surface.colors->tinted);
+    glActiveTexture(GL_TEXTURE3);
+    glBindTexture(GL_TEXTURE_2D, surface.slope_density.id());
+    const gl::Program& program = *surface.program;
+    program.use();
+    program.set("u_slopes", surface.slopes);
+    program.set("u_wide_along_x", surface.wide_along_x ? 1 : 0);
+    if (surface.sun_share > 0) {
+      program.set("u_to_sun", to_sun_);
+      program.set("u_sun_irradiance", static_cast<float>(surface.sun_share) * sun_irradiance_);
+      program.set("u_slope_scale", surface.slope_scale);
+      RgbCoefficients without_sun = radiance_;
+      for (std::size_t i = 0; i < without_sun.size(); ++i)
+        without_sun[i] = without_sun[i] - surface.sun_share * sun_coefficients_[i];
+      set_radiance_uniforms(program, without_sun);
     }
-    return *surface.program;
+    if (surface.colors) {
+      program.set("u_plain_color", surface.colors->plain);
+      program.set("u_tinted_color", surface.colors->tinted);
+    }
+    return program;
   };
   scene.draw(program_of, view, light_to_world);
 }

@@ -364,6 +364,62 @@ TEST_F(ReflectanceRendererTest, HybridMirrorShowsTheLight) {
   }
 }
 
+// A grey sky with a sun of half a degree and of this irradiance.
+constexpr double kSky = 0.3, kSunIrradiance = 3;
+Image make_sunny_picture(Vec3d to_sun) {
+  Image picture(1024, 512);
+  double solid_angle = 0;
+  const double step = std::numbers::pi / picture.height;
+  const auto for_each = [&](const auto& visit) {
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x) {
+        const Vec3d d = *direction_at(Layout::kLatLong, {(x + 0.5) / picture.width, (y + 0.5) / picture.height});
+        visit(x, y, d, dot(d, to_sun) > std::cos(std::numbers::pi / 360));
+      }
+  };
+  for_each([&](int, int, Vec3d d, bool sun) { solid_angle += sun ? step * step * std::sqrt(1 - d.y * d.y) : 0; });
+  for_each([&](int x, int y, Vec3d, bool sun) {
+    const double value = kSky + (sun ? kSunIrradiance / solid_angle : 0);
+    picture.set_rgb(x, y, {value, value, value});
+  });
+  return picture;
+}
+
+// Highlights of the sun, up to grazing ones, against the model itself.
+TEST_F(ReflectanceRendererTest, HybridReflectsTheSunAsTheModelDoes) {
+  const Vec3d toward = {0.5, 0.6, 0.3}, to_sun = (1 / std::sqrt(dot(toward, toward))) * toward, to_eye = {0, 0, 1};
+  const Image picture = make_sunny_picture(to_sun);
+  const auto light = std::make_unique<ImageLight>(Environment{picture, Layout::kLatLong});
+  // Of the largest radiance. A Ward lobe fades toward the horizon where the grooves of the drawn one do not.
+  const std::pair<const char*, double> cases[] = {{"ggx:alpha=0.05,f0=0.9/0.6/0.3", 0.035},
+                                                  {"ggx:alpha=0.15,f0=0.9/0.6/0.3", 0.015},
+                                                  {"cook-torrance:m=0.15,f0=0.7", 0.015},
+                                                  {"ward:rd=0,rs=0.5,sigma=0.15", 0.055},
+                                                  {"ggx-aniso:ax=0.05,ay=0.2,f0=0.8", 0.05}};
+  for (const auto& [material, tolerance] : cases) {
+    const auto brdf = make_brdf(material);
+    const auto surfaces = make_surface_reflectances(sphere_, *brdf, table_params(5), true);
+    const Image image = render_hybrid(sphere_, surfaces, {light->project(5, 0), picture}, parallel_params(5)).radiance;
+    const ReflectanceTable table = make_reflectance_table(*brdf, table_params(1));
+    double largest = 0, error = 0;
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
+        const double nx = ((x + 0.5) / kSize - 0.5) / 0.47, ny = (0.5 - (y + 0.5) / kSize) / 0.47;
+        const double nz2 = 1 - nx * nx - ny * ny;
+        if (nz2 < 0.06) continue;
+        const Vec3d n = {nx, ny, std::sqrt(nz2)}, along = {n.z, 0, -n.x};
+        const Vec3d t = (1 / std::sqrt(dot(along, along))) * along, b = cross(n, t);
+        const auto local = [&](Vec3d d) { return Vec3d{dot(t, d), dot(b, d), dot(n, d)}; };
+        const Vec3d v = local(to_eye), s = local(to_sun);
+        Rgb expected = reflect_light(table, v, constant_light(1, {kSky, kSky, kSky}));
+        if (s.z > 0) expected += kSunIrradiance * s.z * brdf->eval(s, v);
+        largest = std::max(largest, largest_of(expected));
+        error = std::max(error, largest_of(image.rgb(x, y) - expected));
+      }
+    EXPECT_LT(error, tolerance * largest) << material << ": " << error / largest;
+  }
+}
+
 TEST_F(ReflectanceRendererTest, BakedShadowsAreThoseOfTransfer) {
   // Of matte surfaces, reflectance times the share of irradiance is the transfer's own sum.
   const Scene scene = without_colors(make_scene("builtin:scene"));

@@ -11,7 +11,7 @@
 #include "shlight/core/assert.h"
 #include "shlight/render/context.h"
 #include "shlight/render/frame_renderer.h"
-#include "shlight/render/highlight_cubes.h"
+#include "shlight/render/highlight_light.h"
 
 namespace shlight {
 namespace {
@@ -106,9 +106,9 @@ RenderResult render_reflectance(const Scene& scene, std::span<const SurfaceRefle
 RenderResult render_hybrid(const Scene& scene, std::span<const SurfaceReflectance> surfaces, const RenderLight& light,
                            const RenderParams& params, const Progress& progress) {
   SHLIGHT_ASSERT_EQ(surfaces.size(), scene.materials.size());
-  const std::vector<CubeFaces> cubes = make_highlight_cubes(surfaces, light, params.bands);
+  const HighlightLight highlights = make_highlight_light(surfaces, light, params.bands);
   return render(scene, light, params, progress, [&](const RgbCoefficients& radiance, double unit) {
-    return ReflectanceRenderer(surfaces, radiance, params.shade, cubes, unit);
+    return ReflectanceRenderer(surfaces, radiance, params.shade, &highlights, unit);
   });
 }
 

@@ -2,10 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
 
 #include "shlight/brdf/make_brdf.h"
 #include "shlight/light/builtin_light.h"
+#include "shlight/render/highlight_light.h"
 #include "shlight/render/render_test_util.h"
 
 namespace shlight {
@@ -96,6 +101,57 @@ TEST(PrefilterCube, SamplesAndSumsOverAllPixelsAgree) {
       }
   // Pixels of 1.4° in the one and of 0.7° in the other.
   EXPECT_LT(error, 0.01 * largest);
+}
+
+// From mirrors to wide lobes the sun goes from the cube maps to a directional light; nothing of it is lost on the way.
+TEST(HighlightLight, SunAndCubesHaveTheSameFlux) {
+  const auto sky = make_builtin_light("sky");
+  const RenderLight light = {sky->project(kBands), sky->lat_long(1024)};
+  std::vector<double> shares, fluxes;
+  for (const double alpha : {0.01, 0.03, 0.1, 0.3, 0.5}) {
+    const auto brdf = make_brdf("ggx:f0=1,alpha=" + std::to_string(alpha));
+    const auto slim = make_slim_lobes(*brdf);
+    SurfaceReflectance surface;
+    surface.highlight.emplace().lobe = sample_lobe_from_above(*slim, 16);
+    const HighlightLight highlights = make_highlight_light(std::vector{surface}, light, kBands);
+    ASSERT_TRUE(highlights.sun);
+    const auto& [cube, share] = highlights.surfaces[0];
+    const int size = cube[0].width;
+    const double in_bands = light.coefficients[0].g - share * highlights.sun_coefficients[0].g;
+    double flux = share * highlights.sun->irradiance.g + std::sqrt(4 * std::numbers::pi) * in_bands;
+    for (const Image& face : cube)
+      for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+          const double a = (2 * x + 1.0) / size - 1, b = (2 * y + 1.0) / size - 1;
+          flux += face.rgb(x, y).g * 4 / (size * size * std::pow(1 + a * a + b * b, 1.5));
+        }
+    shares.push_back(share);
+    fluxes.push_back(flux);
+  }
+  for (const std::size_t none : {0u, 4u}) EXPECT_EQ(shares[none], 0);
+  for (const std::size_t some : {1u, 3u}) EXPECT_TRUE(shares[some] > 0.1 && shares[some] < 0.9) << shares[some];
+  EXPECT_EQ(shares[2], 1);
+  const double all = std::sqrt(4 * std::numbers::pi) * light.coefficients[0].g;
+  for (const double flux : fluxes) EXPECT_NEAR(flux, all, 0.01 * all);
+}
+
+TEST(SlimLobe, SlopesHaveADensity) {
+  for (const char* material : {"ggx:alpha=0.2,f0=1", "cook-torrance:m=0.2,f0=1", "ggx-aniso:ax=0.3,ay=0.1,f0=1"}) {
+    const auto brdf = make_brdf(material);
+    const LobeFromAbove lobe = sample_lobe_from_above(*brdf, 64);
+    ASSERT_EQ(lobe.slope_density.size(), kDensitySteps + 1u);
+    const bool ggx = std::string(material).starts_with("ggx");
+    const double along = lobe.wide_along_x ? 0.3 : 0.2, across = lobe.wide_along_x ? 0.1 : 0.2;
+    for (const double r : {0.0, 0.1, 0.3}) {
+      const auto i = static_cast<std::size_t>(std::lround(kDensitySteps * r / (r + lobe.width)));
+      const double x = static_cast<double>(i) / kDensitySteps, slope = lobe.width * x / (1 - x);
+      const double q = std::pow(slope / across, 2);
+      const double expected = ggx ? 1 / (std::numbers::pi * along * across * std::pow(1 + q, 2))
+                                  : std::exp(-q) / (std::numbers::pi * along * across);
+      // The light's lobe has masking and Fresnel's term as well.
+      EXPECT_NEAR(lobe.slope_density[i], expected, 0.07 * lobe.slope_density[0]) << material << " at " << slope;
+    }
+  }
 }
 
 TEST(PrefilterCube, FacesAreOpenGls) {

@@ -59,6 +59,33 @@ std::vector<ReflectedSample> reflect_from_above(const Brdf& brdf, int count) {
   return samples;
 }
 
+// LobeFromAbove::slope_density. Seen from above, a direction at θ has its half vector at θ/2, and the density of half
+// vectors' directions times their cosine is that of slopes times the cosine's fourth power.
+std::vector<float> density_of_slopes(const Brdf& brdf, const LobeFromAbove& lobe) {
+  constexpr double kSteepest = 0.999;  // known are slopes of light from above the horizon: below 1
+  const auto density_at = [&](double slope) {
+    const double known = std::min(slope, kSteepest), cosine2 = 1 / (1 + known * known);
+    const double theta = 2 * std::atan(known);
+    const Vec3d s =
+        lobe.wide_along_x ? Vec3d{0, std::sin(theta), std::cos(theta)} : Vec3d{std::sin(theta), 0, std::cos(theta)};
+    // Beyond, as of GGX's facets, which of all models has most of them there.
+    const double beyond = slope > kSteepest ? std::pow(kSteepest / slope, 4) : 1;
+    return beyond * luminance(brdf.eval(s, {0, 0, 1})) * s.z * cosine2 * cosine2;
+  };
+  std::vector<double> densities;
+  double sum = 0;
+  for (int i = 0; i <= kDensitySteps; ++i) {
+    const double x = static_cast<double>(i) / kDensitySteps, slope = lobe.width * x / std::max(1 - x, 1e-9);
+    densities.push_back(i < kDensitySteps ? density_at(slope) : 0);
+    // dr = width/(1 − x)² dx
+    if (i < kDensitySteps)
+      sum += 2 * std::numbers::pi * slope * densities.back() * lobe.width / ((1 - x) * (1 - x)) / kDensitySteps;
+  }
+  std::vector<float> result;
+  for (const double density : densities) result.push_back(static_cast<float>(density * lobe.slim_over_wide / sum));
+  return result;
+}
+
 // The middle of each of kLobeTaps equal parts of the lobe, from one end of its wide side to the other.
 std::vector<float> spread_wide_slopes(const Brdf& brdf, bool along_x) {
   constexpr int kCount = 8192;                    // where the outer taps lie shows in the streaks' ends
@@ -108,7 +135,8 @@ LobeFromAbove sample_lobe_from_above(const Brdf& brdf, int count) {
   }
 
   // The slim lobe: half vectors whose wide slope is shrunk to the slim one's width, and their direction to the light.
-  const double shrink = lobe.width / std::max(along, across);
+  const double shrink = lobe.slim_over_wide = lobe.width / std::max(along, across);
+  lobe.slope_density = density_of_slopes(brdf, lobe);
   double sum = 0;
   for (const ReflectedSample& sample : reflect_from_above(brdf, count)) {
     double x = sample.s.x / (1 + sample.s.z), y = sample.s.y / (1 + sample.s.z);

@@ -29,7 +29,14 @@ struct LobeFromAbove {
   double width = 1;            // the smaller BrdfLobe::width_x or _y
   std::vector<float> slopes = {0};  // kLobeTaps where the widths differ, all of the same weight
   bool wide_along_x = false;
+
+  // How many half vectors have a slope, per unit of area of slopes, which are (h_x/h_z, h_y/h_z) with the wide one
+  // shrunk by slim_over_wide: against r/(r + width) of their length r, in kDensitySteps equal steps from 0 to 1. The
+  // integral over slopes as they are is 1.
+  std::vector<float> slope_density;
+  double slim_over_wide = 1;
 };
+inline constexpr int kDensitySteps = 511;
 inline constexpr int kLobeTaps = 16;
 
 // Deterministic; `count` samples.
