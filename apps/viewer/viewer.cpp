@@ -20,9 +20,11 @@
 #include "script.h"
 #include "shlight/core/error.h"
 #include "shlight/core/file.h"
+#include "shlight/core/peak_memory.h"
 #include "shlight/image/image_io.h"
 #include "shlight/light/coefficient_file.h"
 #include "shlight/render/context.h"
+#include "shlight/render/gpu_timer.h"
 #include "studio.h"
 #include "window.h"
 
@@ -30,6 +32,8 @@ namespace shlight::viewer {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kReportedFrames = 20'000;  // since the last report
 
 double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -68,6 +72,7 @@ class Viewer {
     const int width = window_.width(), height = window_.height();
     if (width < 1 || height < 1) return;  // minimised
     const auto start = Clock::now();
+    gpu_timer_.begin(times_.count());
     const Layout layout = make_layout(studio_.settings, width, height, window_.scale());
     const auto picture_width = static_cast<int>(std::max(layout.picture_width(), 1.0f));
     const auto before_update = Clock::now();
@@ -90,11 +95,15 @@ class Viewer {
     const double own =
         std::chrono::duration<double, std::milli>(before_update - start).count() + ms_since(before_panels);
     window_.end_frame();
+    gpu_timer_.end();
     screenshot_now();
     window_.show();
     grant_wishes();
     if (studio_.ready() && first_picture_ms_ == 0) first_picture_ms_ = ms_since(started_);
-    times_.add({ms_since(start), own});
+    const FrameTimes::Frame times = {ms_since(start), own, {}};
+    times_.add(times), reported_.add(times);
+    while (const auto gpu = gpu_timer_.take())
+      times_.set_gpu(gpu->number, gpu->ms), reported_.set_gpu(gpu->number, gpu->ms);
     awake_ = changed ? 2 : std::max(awake_ - 1, 0);
   }
 
@@ -327,13 +336,19 @@ class Viewer {
 
   // What a test or a person may want to know, as JSON.
   std::string report() {
-    const FrameTimes::Summary times = times_.summary();
+    const FrameTimes::Summary times = reported_.summary();
+    const auto three = [&](auto part) -> nlohmann::ordered_json {
+      return {{"median", part(times.median)}, {"p99", part(times.p99)}, {"max", part(times.max)}};
+    };
     const Side& side = studio_.side(studio_.settings.side);
     nlohmann::ordered_json json = {
         {"first_picture_ms", first_picture_ms_},
         {"frames", times_.count()},
-        {"frame_ms", {{"median", times.median.total_ms}, {"p99", times.p99.total_ms}, {"max", times.max.total_ms}}},
-        {"own_ms", {{"median", times.median.own_ms}, {"p99", times.p99.own_ms}, {"max", times.max.own_ms}}},
+        {"frames_since_report", reported_.kept().size()},
+        {"frame_ms", three([](const FrameTimes::Frame& f) { return f.total_ms; })},
+        {"own_ms", three([](const FrameTimes::Frame& f) { return f.own_ms; })},
+        {"gpu_ms", times.max.gpu_ms ? three([](const FrameTimes::Frame& f) { return *f.gpu_ms; }) : nullptr},
+        {"resident_bytes", resident_memory()},
         {"width", studio_.width()},
         {"height", studio_.height()},
         {"scale", window_.scale()},
@@ -346,7 +361,7 @@ class Viewer {
         {"paths", side.traced_samples()},
         {"last_error", studio_.last_error()},
         {"gl_renderer", gl_renderer()}};
-    times_.clear();
+    reported_.clear();
     return json.dump(2) + "\n";
   }
 
@@ -356,7 +371,9 @@ class Viewer {
   Window window_;  // before all that draws in its context
   Studio studio_;
   Insight insight_;
-  FrameTimes times_;
+  GpuTimer gpu_timer_;
+  FrameTimes times_ = FrameTimes(kShownFrames, gpu_timer_.available());
+  FrameTimes reported_ = FrameTimes(kReportedFrames, gpu_timer_.available());
   Wishes wishes_;
   std::map<int, std::function<void()>> key_actions_;
   int pressed_ = 0;   // by a script
