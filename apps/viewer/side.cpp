@@ -88,7 +88,7 @@ std::size_t bytes_of(const std::vector<SurfaceReflectance>& surfaces) {
 
 }  // namespace
 
-const GpuScene& GpuModel::get(bool tangents, bool colors) {
+GpuScene& GpuModel::get(bool tangents, bool colors) {
   const std::pair key = {tangents, colors};
   const auto found = scenes_.find(key);
   if (found != scenes_.end()) return found->second;
@@ -236,6 +236,7 @@ bool Side::build_renderer(const Subject& subject, const Look& look) {
     renderer_.emplace(IrradianceRenderer(light));
     bytes_ = 3 * sizeof(float) * light.size();
   }
+  begun_.reset();
   built_key_ = key;
   built_model_ = subject.model->key;
   built_bands_ = look.bands;
@@ -283,42 +284,57 @@ bool Side::update(const Subject& subject, const Settings& settings, const Look& 
   return changed;
 }
 
-double Side::draw(const Subject& subject, const Settings& settings, const Look& look, int coarseness) {
+void Side::show_trace(const Subject& subject, const Settings& settings) {
+  if (!traced_picture_ || traced_picture_->width() != width_ || traced_picture_->height() != height_)
+    traced_picture_.emplace(width_, height_);
+  const LightScale scale = light_scale(subject.light->drawn.coefficients);
+  traced_picture_->set(traced_.radiance, scale.unit);
+  traced_picture_->draw(exposed(scale, {{}, {}, settings.exposure, settings.curve}), settings.curve);
+  showing_trace_ = true;
+}
+
+void Side::begin_picture(const Subject& subject, const Settings& settings, const Look& look, int coarseness) {
+  begun_.reset();
   const bool reference = look.method == Method::kReference;
-  if (reference && traced_.radiance.num_pixels() > 0) {
-    if (!traced_picture_ || traced_picture_->width() != width_ || traced_picture_->height() != height_)
-      traced_picture_.emplace(width_, height_);
-    const LightScale scale = light_scale(subject.light->drawn.coefficients);
-    traced_picture_->set(traced_.radiance, scale.unit);
-    traced_picture_->draw(exposed(scale, {{}, {}, settings.exposure, settings.curve}), settings.curve);
-    showing_trace_ = true;
-    return 0;
-  }
-  showing_trace_ = false;
+  if (reference && traced_.radiance.num_pixels() > 0) return show_trace(subject, settings);
   if (reference) {  // until there are paths
     Look plain = look;
     plain.method = Method::kIrradiance;
     plain.show = Show::kLit;
     build_renderer(subject, plain);
   }
-  if (!renderer_) return 0;
+  if (!renderer_) return;
   refresh_light(subject, look);
   const int width = std::max(width_ / coarseness, 1), height = std::max(height_ / coarseness, 1);
-  const auto same_size = frames_.find(coarseness);
-  if (same_size != frames_.end() && (same_size->second.width() != width || same_size->second.height() != height))
-    frame_ = nullptr, frames_.clear();
-  frame_ = &frames_.try_emplace(coarseness, width, height).first->second;
+  const auto same_size = canvases_.find(coarseness);
+  if (same_size != canvases_.end() &&
+      (same_size->second.frame.width() != width || same_size->second.frame.height() != height)) {
+    // What is shown stays until there is something else.
+    if (shown_canvases_.empty()) shown_canvases_ = std::move(canvases_);
+    canvases_.clear();
+  }
+  Canvas& canvas = canvases_.try_emplace(coarseness, width, height).first->second;
   const bool lit = built_show_ == Show::kLit || built_show_ == Show::kDegree;
-  FrameParams frame = {settings.camera, settings.rotate_light, lit ? settings.exposure : 0,
-                       lit ? settings.curve : ToneCurve::kNone};
-  const float bright = look.mark_negative ? static_cast<float>(1 / exposed(scale_, frame)) : 0;
+  const FrameParams params = {settings.camera, settings.rotate_light, lit ? settings.exposure : 0,
+                              lit ? settings.curve : ToneCurve::kNone};
+  const float bright = look.mark_negative ? static_cast<float>(1 / exposed(scale_, params)) : 0;
   mark_negative(*renderer_, {bright, 0, bright});
-  const GpuScene& scene = subject.gpu->get(needs_tangents(*renderer_), built_show_ != Show::kVisibility);
-  const auto start = std::chrono::steady_clock::now();
-  frame_->draw({scene, subject.model->extent, *renderer_, settings.background && lit ? &*background_ : nullptr, scale_},
-               frame);
-  frame_->finish();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  GpuScene& scene = subject.gpu->get(needs_tangents(*renderer_), built_show_ != Show::kVisibility);
+  begun_ = {subject.gpu, &scene, settings.background && lit ? &*background_ : nullptr, params, &canvas, coarseness};
+  canvas.parts.begin(scene);
+}
+
+bool Side::draw(double ms) {
+  if (!begun_) return false;
+  auto& [gpu, scene, background, params, canvas, coarseness] = *begun_;
+  if (!canvas->parts.draw(*scene, {*scene, gpu->asset().extent, *renderer_, background, scale_}, params, ms))
+    return false;
+  cost_ = {coarseness, canvas->parts.spent_ms()};
+  frame_ = &canvas->frame;
+  shown_canvases_.clear();
+  showing_trace_ = false;
+  begun_.reset();
+  return true;
 }
 
 unsigned Side::texture() const {

@@ -8,7 +8,7 @@
 
 #include "model_asset.h"
 #include "settings.h"
-#include "shlight/render/frame_renderer.h"
+#include "shlight/render/frame_in_parts.h"
 #include "shlight/render/highlight_cubes.h"
 #include "shlight/truth/path_tracer.h"
 #include "task.h"
@@ -19,7 +19,7 @@ namespace shlight::viewer {
 class GpuModel {
  public:
   explicit GpuModel(Model model) : model_(std::move(model)) {}
-  const GpuScene& get(bool tangents, bool colors);
+  GpuScene& get(bool tangents, bool colors);
   const ModelAsset& asset() const { return *model_; }
 
  private:
@@ -39,9 +39,19 @@ class Side {
  public:
   // Starts and takes in work; true where there is something new to draw.
   bool update(const Subject& subject, const Settings& settings, const Look& look, int width, int height);
-  // Draws what there is, into a picture of that size, or of that size divided by `coarseness`, which takes less time.
-  // Returns how long it took, in ms; 0 where that is not known.
-  double draw(const Subject& subject, const Settings& settings, const Look& look, int coarseness);
+  // Begins a picture of what there is, of that size, or of that size divided by `coarseness`, which takes less time.
+  void begin_picture(const Subject& subject, const Settings& settings, const Look& look, int coarseness);
+  // Draws on for about so long; true where a new picture has been completed.
+  bool draw(double ms);
+  // Whether a picture has been begun and is not there yet; how coarse it is.
+  bool drawing() const { return begun_.has_value(); }
+  int drawing_coarseness() const { return begun_ ? begun_->coarseness : 0; }
+  // How long the last picture took, in ms, and how coarse it is.
+  struct Cost {
+    int coarseness = 1;
+    double ms = 0;
+  };
+  const Cost& cost() const { return cost_; }
 
   // Of the picture drawn last: RGBA8, rows from the bottom; 0 where there is none.
   unsigned texture() const;
@@ -84,6 +94,7 @@ class Side {
   bool build_renderer(const Subject& subject, const Look& look);
   RgbCoefficients shaped_light(const Subject& subject, const Look& look, int bands) const;
   void refresh_light(const Subject& subject, const Look& look);
+  void show_trace(const Subject& subject, const Settings& settings);
 
   Task<std::shared_ptr<const Tables>> table_;
   Task<std::shared_ptr<const BakedTransfer>> bake_;
@@ -98,8 +109,26 @@ class Side {
   Show built_show_ = Show::kLit;
   std::optional<SurfaceRenderer> renderer_;
   std::optional<Background> background_;
-  std::map<int, FrameRenderer> frames_;  // by coarseness
-  FrameRenderer* frame_ = nullptr;       // that was drawn last
+  // What is drawn into.
+  struct Canvas {
+    FrameRenderer frame;
+    FrameInParts parts;
+    Canvas(int width, int height) : frame(width, height), parts(frame) {}
+  };
+  std::map<int, Canvas> canvases_;        // by coarseness
+  std::map<int, Canvas> shown_canvases_;  // of another size, that frame_ may be among
+  FrameRenderer* frame_ = nullptr;        // that was completed last
+  // A picture on its way: all that it was begun with.
+  struct Begun {
+    std::shared_ptr<GpuModel> gpu;
+    GpuScene* scene;
+    const Background* background;
+    FrameParams params;
+    Canvas* canvas;
+    int coarseness;
+  };
+  std::optional<Begun> begun_;
+  Cost cost_;
   RgbCoefficients light_;
   LightScale scale_;
   std::size_t bytes_ = 0;

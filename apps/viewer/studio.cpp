@@ -95,7 +95,7 @@ void Studio::take_light() {
 
 // Once both sides stand still: comparing takes a while.
 void Studio::request_difference() {
-  if (coarseness_ > 1) return;
+  if (coarseness_ > 1 || drawing()) return;
   for (const int which : {0, 1})
     if (!sides_[static_cast<std::size_t>(which)].settled(settings.looks[static_cast<std::size_t>(which)])) return;
   // A reference that converges is compared at each doubling of its paths.
@@ -111,16 +111,29 @@ void Studio::request_difference() {
   if (a.width == b.width && a.height == b.height) difference_.request(key, a, b);
 }
 
-void Studio::draw_side(int which) {
+void Studio::begin_picture(int which) {
   const auto i = static_cast<std::size_t>(which);
   stale_[i] = false;
   drawn_coarseness_[i] = coarseness_;
   try {
-    const double ms = sides_[i].draw(subject_, settings, settings.looks[i], coarseness_);
-    if (ms > 0) cost_ms_[coarseness_] = ms;
+    sides_[i].begin_picture(subject_, settings, settings.looks[i], coarseness_);
   } catch (const Error& error) {
     say(error.what(), true);
   }
+}
+
+bool Studio::draw_side(int which, double ms) {
+  Side& side = sides_[static_cast<std::size_t>(which)];
+  if (!side.draw(ms)) return false;
+  cost_ms_[side.cost().coarseness] = side.cost().ms;
+  return true;
+}
+
+bool Studio::drawing() const {
+  if (!ready()) return false;
+  for (const int which : {0, 1})
+    if (settings.shows(which) && (side(which).drawing() || stale_[static_cast<std::size_t>(which)])) return true;
+  return false;
 }
 
 int Studio::choose_coarseness(bool moving) const {
@@ -137,11 +150,16 @@ int Studio::choose_coarseness(bool moving) const {
   return coarseness;
 }
 
+// For who needs the picture now.
 void Studio::draw_finely() {
-  if (coarseness_ == 1) return;
+  if (coarseness_ == 1 && !drawing()) return;
+  constexpr double kAll = 1e9;  // ms
   coarseness_ = 1;
-  for (const int which : {0, 1})
-    if (settings.shows(which)) draw_side(which);
+  for (const int which : {0, 1}) {
+    if (!settings.shows(which)) continue;
+    begin_picture(which);
+    draw_side(which, kAll);
+  }
 }
 
 bool Studio::update(int width, int height) {
@@ -174,12 +192,20 @@ bool Studio::update(int width, int height) {
   if (moved[0] || moved[1]) moved_at_ = now;
   const bool moving = std::chrono::duration<double>(now - moved_at_).count() < kStill;
   coarseness_ = choose_coarseness(moving);
+  // What takes long is drawn over several frames, so that the window goes on meanwhile. A picture that was begun is
+  // completed even if it is not of the newest moment, or there would be none while something moves; but not a fine one
+  // where a coarse one does.
+  constexpr double kFrame = 25;  // ms
+  const bool both = settings.compare != Compare::kOne && sides_[0].drawing() && sides_[1].drawing();
   for (const int which : {0, 1}) {
     const auto i = static_cast<std::size_t>(which);
-    const bool refined = drawn_coarseness_[i] != coarseness_;
-    if (!settings.shows(which) || !(stale_[i] || moved[i] || resized || refined)) continue;
-    draw_side(which);
-    changed = true;
+    if (!settings.shows(which)) continue;
+    if (moved[i] || resized || drawn_coarseness_[i] != coarseness_) stale_[i] = true;
+    if (stale_[i] && (!sides_[i].drawing() || sides_[i].drawing_coarseness() < coarseness_)) {
+      begin_picture(which);
+      changed = true;
+    }
+    changed = draw_side(which, both ? kFrame / 2 : kFrame) || changed;
   }
   drawn_key_ = key;
   if (settings.compare == Compare::kDifference)
@@ -190,7 +216,8 @@ bool Studio::update(int width, int height) {
 }
 
 bool Studio::settled(int samples) const {
-  if (!ready() || model_task_.busy() || light_task_.busy() || difference_.busy() || coarseness_ > 1) return false;
+  if (!ready() || model_task_.busy() || light_task_.busy() || difference_.busy() || coarseness_ > 1 || drawing())
+    return false;
   for (const int which : {0, 1}) {
     if (!settings.shows(which)) continue;
     const Look& look = settings.looks[static_cast<std::size_t>(which)];
@@ -201,7 +228,7 @@ bool Studio::settled(int samples) const {
 }
 
 bool Studio::busy() const {
-  return coarseness_ > 1 || model_task_.busy() || light_task_.busy() || difference_.busy() ||
+  return coarseness_ > 1 || drawing() || model_task_.busy() || light_task_.busy() || difference_.busy() ||
          !side(0).activity().empty() || !side(1).activity().empty();
 }
 

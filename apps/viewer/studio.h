@@ -35,6 +35,8 @@ class Studio {
   // Nothing is being loaded or computed that the settings ask for; a reference counts as done with this many paths.
   bool settled(int samples) const;
   bool busy() const;
+  // A picture is on its way, and is drawn a part in each frame.
+  bool drawing() const;
 
   const Subject& subject() const { return subject_; }
   Side& side(int which) { return sides_[static_cast<std::size_t>(which)]; }
@@ -67,7 +69,8 @@ class Studio {
   void take_model();
   void take_light();
   void request_difference();
-  void draw_side(int which);
+  void begin_picture(int which);
+  bool draw_side(int which, double ms);
   int choose_coarseness(bool moving) const;
   void draw_finely();
 

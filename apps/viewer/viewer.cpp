@@ -59,7 +59,7 @@ class Viewer {
       // While a script only waits, processors are left to what it waits for.
       const bool waits = scripted && (script_.ended() || script_.line().words[0] == "wait");
       const bool busy = scripted || studio_.busy() || insight_.busy();
-      const double wait = awake_ > 0 || (scripted && !waits) ? 0 : busy ? 0.03 : 0.25;
+      const double wait = awake_ > 0 || studio_.drawing() || (scripted && !waits) ? 0 : busy ? 0.03 : 0.25;
       window_.poll(wait);
       for (const std::string& path : window_.take_dropped()) studio_.open(path);
       if (window_.take_events()) awake_ = kAfterEvent;
