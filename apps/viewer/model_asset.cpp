@@ -43,6 +43,7 @@ void load_lighting(const std::string& name, int serial, const Task<Lighting>::Pu
     const Image quick = loaded->light->lat_long(kQuickWidth, worker_threads());
     publish_light({project_image({quick, Layout::kLatLong}, kMaxRenderBands, worker_threads()), quick}, false);
   }
+  be_patient();  // there is something to see already
   publish_light(make_render_light(*loaded->light, kMaxRenderBands, kFullWidth, worker_threads()), true);
 }
 

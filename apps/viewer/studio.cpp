@@ -195,7 +195,7 @@ bool Studio::update(int width, int height) {
   // What takes long is drawn over several frames, so that the window goes on meanwhile. A picture that was begun is
   // completed even if it is not of the newest moment, or there would be none while something moves; but not a fine one
   // where a coarse one does.
-  constexpr double kFrame = 25;  // ms
+  constexpr double kFrame = 18;  // ms
   const bool both = settings.compare != Compare::kOne && sides_[0].drawing() && sides_[1].drawing();
   for (const int which : {0, 1}) {
     const auto i = static_cast<std::size_t>(which);
@@ -213,6 +213,12 @@ bool Studio::update(int width, int height) {
   else
     difference_.cancel();
   return difference_.update() || changed;
+}
+
+bool Studio::has_picture() const {
+  for (const int which : {0, 1})
+    if (settings.shows(which) && !side(which).has_picture()) return false;
+  return true;
 }
 
 bool Studio::settled(int samples) const {
@@ -234,9 +240,7 @@ bool Studio::busy() const {
 
 Image8 Studio::picture() {
   draw_finely();
-  for (const int which : {0, 1})
-    if (settings.shows(which) && !side(which).has_picture())
-      throw Error("picture", "is not there yet", "a moment later");
+  if (!has_picture()) throw Error("picture", "is not there yet", "a moment later");
   if (settings.compare == Compare::kDifference && difference_fits()) return difference_.result()->map;
   Image8 picture = side(settings.side).read_picture();
   if (settings.compare != Compare::kSplit) return picture;

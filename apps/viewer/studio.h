@@ -32,6 +32,8 @@ class Studio {
   bool update(int width, int height);
 
   bool ready() const { return subject_.model && subject_.light; }
+  // There is something to see of all that is shown.
+  bool has_picture() const;
   // Nothing is being loaded or computed that the settings ask for; a reference counts as done with this many paths.
   bool settled(int samples) const;
   bool busy() const;

@@ -59,7 +59,7 @@ class Viewer {
       // While a script only waits, processors are left to what it waits for.
       const bool waits = scripted && (script_.ended() || script_.line().words[0] == "wait");
       const bool busy = scripted || studio_.busy() || insight_.busy();
-      const double wait = awake_ > 0 || studio_.drawing() || (scripted && !waits) ? 0 : busy ? 0.03 : 0.25;
+      const double wait = awake_ > 0 || studio_.drawing() || (scripted && !waits) ? 0 : busy ? 0.06 : 0.25;
       window_.poll(wait);
       for (const std::string& path : window_.take_dropped()) studio_.open(path);
       if (window_.take_events()) awake_ = kAfterEvent;
@@ -99,7 +99,7 @@ class Viewer {
     screenshot_now();
     window_.show();
     grant_wishes();
-    if (studio_.ready() && first_picture_ms_ == 0) first_picture_ms_ = ms_since(started_);
+    if (studio_.has_picture() && first_picture_ms_ == 0) first_picture_ms_ = ms_since(started_);
     const FrameTimes::Frame times = {ms_since(start), own, {}};
     times_.add(times), reported_.add(times);
     while (const auto gpu = gpu_timer_.take())
