@@ -33,6 +33,7 @@ void load_lighting(const std::string& name, int serial, const Task<Lighting>::Pu
     light->name = name;
     light->key = fmt::format("{} {} {}", serial, name, final);
     light->loaded = loaded;
+    light->behind = make_half_picture(drawn.background, light_scale(drawn.coefficients).unit);
     light->drawn = std::move(drawn);
     light->final = final;
     publish(light);

@@ -6,6 +6,7 @@
 
 #include "shlight/core/progress.h"
 #include "shlight/light/light.h"
+#include "shlight/render/background.h"
 #include "shlight/render/render_light.h"
 #include "shlight/scene/camera.h"
 #include "shlight/transfer/baked_file.h"
@@ -30,6 +31,7 @@ struct LightAsset {
   std::string name;
   std::shared_ptr<const LoadedLight> loaded;
   RenderLight drawn;   // with kMaxRenderBands
+  HalfPicture behind;  // drawn.background in the unit of light_scale(drawn.coefficients); without pixels like that
   std::string key;     // of this light at this fineness
   bool final = false;  // as fine as `render` draws it
 };

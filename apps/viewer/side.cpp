@@ -13,6 +13,9 @@
 namespace shlight::viewer {
 namespace {
 
+// Of a frame, for what is brought to the card beside drawing.
+constexpr double kUploadMs = 6, kAllMs = 1e9;
+
 bool needs_tables(const Look& look) {
   return look.show != Show::kNormals && (look.method == Method::kReflectance || look.method == Method::kHybrid);
 }
@@ -197,73 +200,97 @@ bool Side::take_news() {
   return news;
 }
 
-RgbCoefficients Side::shaped_light(const Subject& subject, const Look& look, int bands) const {
+// Windows that look for how much is enough take a while, so that is kept.
+const RgbCoefficients& Side::shaped_light(const Subject& subject, const Look& look, int bands) {
+  const std::string key = fmt::format("{} {} {}", subject.light->key, look.window, bands);
+  if (key == shaped_key_) return shaped_;
   const RgbCoefficients first = resize_bands(subject.light->drawn.coefficients, bands);
-  return look.window == "none" ? first : apply_named_window(look.window, first).coefficients;
+  shaped_ = look.window == "none" ? first : apply_named_window(look.window, first).coefficients;
+  shaped_key_ = key;
+  return shaped_;
 }
 
-// Makes a renderer of the look where what it needs is there; of irradiance where there is nothing yet.
+// Makes a renderer of the look where what it needs is there; of irradiance where there is nothing yet. True where there
+// is a new one to draw with.
 bool Side::build_renderer(const Subject& subject, const Look& look) {
   const bool tables_ready = needs_tables(look) && tables_ && tables_->key == table_key(subject, look);
   const bool transfer_ready = needs_transfer(look) && transfer_ && transfer_->key == bake_key(subject, look);
   const bool needs_neither = !needs_tables(look) && !needs_transfer(look);
   const bool fallback = !tables_ready && !transfer_ready && !needs_neither;
-  if (fallback && renderer_ && built_model_ == subject.model->key) return false;
+  const bool is_of_model = renderer_ && built_.model == subject.model->key;
+  if (fallback && is_of_model) return false;
 
-  std::string key = fmt::format("{} {} {}", subject.model->key, look.bands, static_cast<int>(look.show));
-  if (tables_ready) key += fmt::format(" {} {}", static_cast<const void*>(tables_.get()), static_cast<int>(look.shade));
-  if (transfer_ready) key += fmt::format(" {}", static_cast<const void*>(transfer_.get()));
-  if (key == built_key_) return false;
+  Built built = {{}, subject.model->key, look.bands, fallback ? Show::kLit : look.show, 0};
+  built.key = fmt::format("{} {} {}", subject.model->key, look.bands, static_cast<int>(look.show));
+  if (tables_ready)
+    built.key += fmt::format(" {} {}", static_cast<const void*>(tables_.get()), static_cast<int>(look.shade));
+  if (transfer_ready) built.key += fmt::format(" {}", static_cast<const void*>(transfer_.get()));
+  if (upcoming_ && built.key == upcoming_->built.key) return upload(kUploadMs);
+  upcoming_.reset();
+  if (built.key == built_.key) return false;
 
   const bool lit = look.show == Show::kLit || look.show == Show::kDegree;
-  scale_ = lit || fallback ? light_scale(subject.light->drawn.coefficients) : LightScale{};
-  const RgbCoefficients light = scaled(scale_.unit, shaped_light(subject, look, look.bands));
-  bytes_ = 0;
+  const LightScale scale = lit || fallback ? light_scale(subject.light->drawn.coefficients) : LightScale{};
+  const RgbCoefficients light = scaled(scale.unit, shaped_light(subject, look, look.bands));
   if (look.show == Show::kNormals) {
-    renderer_.emplace(NormalRenderer());
+    install(NormalRenderer(), built);
   } else if (transfer_ready) {
     const Baked& content = subject.model->content;
-    if (subject.model->is_baked && content.info.pca)
-      renderer_.emplace(TransferRenderer(*content.info.pca, resize_bands(light, content.info.pca->bands)));
-    else
-      renderer_.emplace(
-          TransferRenderer(*transfer_->transfer, light, subject.model->is_baked ? content.info.bits : 32));
-    bytes_ = transfer_->transfer->coefficients.size() * sizeof(float);
+    built.bytes = transfer_->transfer->coefficients.size() * sizeof(float);
+    if (subject.model->is_baked && content.info.pca) {
+      install(TransferRenderer(*content.info.pca, resize_bands(light, content.info.pca->bands)), built);
+    } else {
+      const int bits = subject.model->is_baked ? content.info.bits : 32;
+      upcoming_ = {TransferRenderer::make_empty(*transfer_->transfer, light, bits), transfer_->transfer, built};
+      return upload(is_of_model ? kUploadMs : kAllMs);  // what is drawn until then has to be of the model
+    }
   } else if (tables_ready) {
-    renderer_.emplace(ReflectanceRenderer(tables_->surfaces, light, look.shade, tables_->cubes, scale_.unit));
-    bytes_ = bytes_of(tables_->surfaces);
+    built.bytes = bytes_of(tables_->surfaces);
+    install(ReflectanceRenderer(tables_->surfaces, light, look.shade, tables_->cubes, scale.unit), built);
   } else {
-    renderer_.emplace(IrradianceRenderer(light));
-    bytes_ = 3 * sizeof(float) * light.size();
+    built.bytes = 3 * sizeof(float) * light.size();
+    install(IrradianceRenderer(light), built);
   }
-  begun_.reset();
-  built_key_ = key;
-  built_model_ = subject.model->key;
-  built_bands_ = look.bands;
-  built_show_ = fallback ? Show::kLit : look.show;
-  light_key_.clear();
   return true;
+}
+
+bool Side::upload(double ms) {
+  const auto start = std::chrono::steady_clock::now();
+  do {
+    if (!upcoming_->renderer.upload(*upcoming_->transfer)) continue;
+    install(std::move(upcoming_->renderer), upcoming_->built);
+    upcoming_.reset();
+    return true;
+  } while (std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() < ms);
+  return false;
+}
+
+void Side::install(SurfaceRenderer renderer, const Built& built) {
+  begun_.reset();
+  renderer_.emplace(std::move(renderer));
+  built_ = built;
+  light_key_.clear();
 }
 
 // Gives the renderer and the background the light as it is now.
 void Side::refresh_light(const Subject& subject, const Look& look) {
-  const bool lit = built_show_ == Show::kLit || built_show_ == Show::kDegree;
+  const bool lit = built_.show == Show::kLit || built_.show == Show::kDegree;
   const std::string key =
-      fmt::format("{} {} {} {}", subject.light->key, look.window, built_show_ == Show::kDegree ? look.degree : -1, lit);
+      fmt::format("{} {} {} {}", subject.light->key, look.window, built_.show == Show::kDegree ? look.degree : -1, lit);
   if (key == light_key_) return;
   light_key_ = key;
   scale_ = lit ? light_scale(subject.light->drawn.coefficients) : LightScale{};
-  light_ = shaped_light(subject, look, built_bands_);
-  if (built_show_ == Show::kDegree) light_ = keep_degree(light_, std::min(look.degree, built_bands_ - 1));
-  const RgbCoefficients drawn = lit ? scaled(scale_.unit, light_) : visibility_light(built_bands_);
+  light_ = shaped_light(subject, look, built_.bands);
+  if (built_.show == Show::kDegree) light_ = keep_degree(light_, std::min(look.degree, built_.bands - 1));
+  const RgbCoefficients drawn = lit ? scaled(scale_.unit, light_) : visibility_light(built_.bands);
   set_radiance(*renderer_, drawn);
 
-  const bool has_picture = subject.light->drawn.background.num_pixels() > 0 && built_show_ == Show::kLit;
+  const bool has_picture = subject.light->drawn.background.num_pixels() > 0 && built_.show == Show::kLit;
   const std::string background_key = has_picture ? subject.light->key : key;
   if (background_key == background_key_ || !lit) return;
   background_key_ = background_key;
   if (has_picture)
-    background_.emplace(subject.light->drawn.background, scale_.unit);
+    background_.emplace(subject.light->behind);
   else
     background_.emplace(drawn);
 }
@@ -314,12 +341,12 @@ void Side::begin_picture(const Subject& subject, const Settings& settings, const
     canvases_.clear();
   }
   Canvas& canvas = canvases_.try_emplace(coarseness, width, height).first->second;
-  const bool lit = built_show_ == Show::kLit || built_show_ == Show::kDegree;
+  const bool lit = built_.show == Show::kLit || built_.show == Show::kDegree;
   const FrameParams params = {settings.camera, settings.rotate_light, lit ? settings.exposure : 0,
                               lit ? settings.curve : ToneCurve::kNone};
   const float bright = look.mark_negative ? static_cast<float>(1 / exposed(scale_, params)) : 0;
   mark_negative(*renderer_, {bright, 0, bright});
-  GpuScene& scene = subject.gpu->get(needs_tangents(*renderer_), built_show_ != Show::kVisibility);
+  GpuScene& scene = subject.gpu->get(needs_tangents(*renderer_), built_.show != Show::kVisibility);
   begun_ = {subject.gpu, &scene, settings.background && lit ? &*background_ : nullptr, params, &canvas, coarseness};
   canvas.parts.begin(scene);
 }
@@ -356,7 +383,7 @@ Image Side::read_radiance() const {
 
 bool Side::settled(const Look& look) const {
   if (look.method == Method::kReference) return traced_.samples > 0 && traced_key_ == trace_.wanted();
-  return !table_.busy() && !bake_.busy();
+  return !table_.busy() && !bake_.busy() && !upcoming_;
 }
 
 std::string Side::activity() const {

@@ -45,6 +45,8 @@ class Side {
   bool draw(double ms);
   // Whether a picture has been begun and is not there yet; how coarse it is.
   bool drawing() const { return begun_.has_value(); }
+  // What was baked is on its way to the card, a part in each frame.
+  bool uploading() const { return upcoming_.has_value(); }
   int drawing_coarseness() const { return begun_ ? begun_->coarseness : 0; }
   // How long the last picture took, in ms, and how coarse it is.
   struct Cost {
@@ -70,8 +72,8 @@ class Side {
   std::optional<std::string> take_error();
 
   int traced_samples() const { return traced_.samples; }
-  double traced_noise() const { return noise_; }  // relative
-  std::size_t bytes() const { return bytes_; }    // of what the method needs beside the scene
+  double traced_noise() const { return noise_; }      // relative
+  std::size_t bytes() const { return built_.bytes; }  // of what the method needs beside the scene
   const Transfer* transfer() const { return transfer_ ? transfer_->transfer.get() : nullptr; }
   const RgbCoefficients& light() const { return light_; }  // as it was last drawn, in its own unit
 
@@ -87,12 +89,22 @@ class Side {
     bool final = false;
   };
 
+  // What a renderer was made for.
+  struct Built {
+    std::string key, model;
+    int bands = 0;
+    Show show = Show::kLit;
+    std::size_t bytes = 0;
+  };
+
   void request_tables(const Subject& subject, const Look& look);
   void request_bake(const Subject& subject, const Look& look);
   void request_trace(const Subject& subject, const Settings& settings, const Look& look);
   bool take_news();
   bool build_renderer(const Subject& subject, const Look& look);
-  RgbCoefficients shaped_light(const Subject& subject, const Look& look, int bands) const;
+  bool upload(double ms);
+  void install(SurfaceRenderer renderer, const Built& built);
+  const RgbCoefficients& shaped_light(const Subject& subject, const Look& look, int bands);
   void refresh_light(const Subject& subject, const Look& look);
   void show_trace(const Subject& subject, const Settings& settings);
 
@@ -104,10 +116,18 @@ class Side {
 
   std::shared_ptr<const Tables> tables_;
   std::shared_ptr<const BakedTransfer> transfer_;
-  std::string built_key_, built_model_, light_key_, background_key_;
-  int built_bands_ = 0;
-  Show built_show_ = Show::kLit;
+  Built built_;
+  std::string light_key_, background_key_;
   std::optional<SurfaceRenderer> renderer_;
+  // A renderer whose transfer is still on its way to the card; renderer_ draws until it is there.
+  struct Upcoming {
+    TransferRenderer renderer;
+    std::shared_ptr<const Transfer> transfer;
+    Built built;
+  };
+  std::optional<Upcoming> upcoming_;
+  std::string shaped_key_;
+  RgbCoefficients shaped_;  // light as it is windowed
   std::optional<Background> background_;
   // What is drawn into.
   struct Canvas {
@@ -131,7 +151,6 @@ class Side {
   Cost cost_;
   RgbCoefficients light_;
   LightScale scale_;
-  std::size_t bytes_ = 0;
 
   PathTraceResult traced_;
   std::string traced_key_;

@@ -132,21 +132,28 @@ bool Studio::draw_side(int which, double ms) {
 bool Studio::drawing() const {
   if (!ready()) return false;
   for (const int which : {0, 1})
-    if (settings.shows(which) && (side(which).drawing() || stale_[static_cast<std::size_t>(which)])) return true;
+    if (settings.shows(which) &&
+        (side(which).drawing() || side(which).uploading() || stale_[static_cast<std::size_t>(which)]))
+      return true;
   return false;
+}
+
+// What a picture is expected to take: what it took, or at most as much more or less as it has more or fewer pixels.
+double Studio::expected_ms(int coarseness) const {
+  if (const auto known = cost_ms_.find(coarseness); known != cost_ms_.end()) return known->second;
+  if (cost_ms_.empty()) return 1e9;  // the first one may take long
+  const auto& [nearest, ms] = *std::ranges::min_element(cost_ms_, {}, [&](const auto& cost) {
+    return std::max(cost.first, coarseness) / std::min(cost.first, coarseness);
+  });
+  const double ratio = static_cast<double>(nearest) / coarseness;
+  return ratio * ratio * ms;
 }
 
 int Studio::choose_coarseness(bool moving) const {
   constexpr double kQuick = 40;  // ms
   constexpr int kCoarsest = 4;
-  if (!moving) return 1;
   int coarseness = 1;
-  double ms = 0;
-  for (; coarseness < kCoarsest; coarseness *= 2) {
-    const auto known = cost_ms_.find(coarseness);
-    ms = known != cost_ms_.end() ? known->second : 0.25 * ms;  // a quarter of the pixels
-    if (ms <= kQuick) break;
-  }
+  while (moving && coarseness < kCoarsest && expected_ms(coarseness) > kQuick) coarseness *= 2;
   return coarseness;
 }
 
@@ -162,7 +169,7 @@ void Studio::draw_finely() {
   }
 }
 
-bool Studio::update(int width, int height) {
+bool Studio::update(int width, int height, double ms) {
   take_model();
   take_light();
   const auto now = std::chrono::steady_clock::now();
@@ -195,7 +202,6 @@ bool Studio::update(int width, int height) {
   // What takes long is drawn over several frames, so that the window goes on meanwhile. A picture that was begun is
   // completed even if it is not of the newest moment, or there would be none while something moves; but not a fine one
   // where a coarse one does.
-  constexpr double kFrame = 18;  // ms
   const bool both = settings.compare != Compare::kOne && sides_[0].drawing() && sides_[1].drawing();
   for (const int which : {0, 1}) {
     const auto i = static_cast<std::size_t>(which);
@@ -205,7 +211,7 @@ bool Studio::update(int width, int height) {
       begin_picture(which);
       changed = true;
     }
-    changed = draw_side(which, both ? kFrame / 2 : kFrame) || changed;
+    changed = draw_side(which, both ? ms / 2 : ms) || changed;
   }
   drawn_key_ = key;
   if (settings.compare == Compare::kDifference)

@@ -28,8 +28,8 @@ class Studio {
   void reset();
 
   // Once a frame: takes in what has been computed, asks for what the settings need, and draws where anything has
-  // changed. The picture has this size. True where there is something new to see.
-  bool update(int width, int height);
+  // changed, for about `ms`. The picture has this size. True where there is something new to see.
+  bool update(int width, int height, double ms);
 
   bool ready() const { return subject_.model && subject_.light; }
   // There is something to see of all that is shown.
@@ -73,6 +73,7 @@ class Studio {
   void request_difference();
   void begin_picture(int which);
   bool draw_side(int which, double ms);
+  double expected_ms(int coarseness) const;
   int choose_coarseness(bool moving) const;
   void draw_finely();
 

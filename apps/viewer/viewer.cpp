@@ -76,7 +76,7 @@ class Viewer {
     const Layout layout = make_layout(studio_.settings, width, height, window_.scale());
     const auto picture_width = static_cast<int>(std::max(layout.picture_width(), 1.0f));
     const auto before_update = Clock::now();
-    bool changed = studio_.update(picture_width, height);
+    bool changed = studio_.update(picture_width, height, drawing_ms());
     if (layout.right > 0 && studio_.ready()) {
       const auto balloon = static_cast<int>(layout.right - 28 * layout.scale);
       changed = insight_.update(studio_.subject(), studio_.settings.look(), studio_.settings.camera, balloon,
@@ -85,6 +85,7 @@ class Viewer {
     }
     set_title();
     const auto before_panels = Clock::now();
+    const double update_ms = std::chrono::duration<double, std::milli>(before_panels - before_update).count();
     window_.begin_frame();
     point_out(layout);
     keys();
@@ -100,11 +101,21 @@ class Viewer {
     window_.show();
     grant_wishes();
     if (studio_.has_picture() && first_picture_ms_ == 0) first_picture_ms_ = ms_since(started_);
+    // Forgets slowly that it once took longer.
+    constexpr double kForget = 0.1;
+    beside_ms_ = std::max(ms_since(start) - update_ms, (1 - kForget) * beside_ms_);
     const FrameTimes::Frame times = {ms_since(start), own, {}};
     times_.add(times), reported_.add(times);
     while (const auto gpu = gpu_timer_.take())
       times_.set_gpu(gpu->number, gpu->ms), reported_.set_gpu(gpu->number, gpu->ms);
     awake_ = changed ? 2 : std::max(awake_ - 1, 0);
+  }
+
+  // How long this frame may draw pictures: what is left of a frame's time after all else. The first picture is to be
+  // there soon.
+  double drawing_ms() const {
+    constexpr double kFrame = 36, kLeast = 6, kMost = 24, kFirst = 150;
+    return first_picture_ms_ == 0 ? kFirst : std::clamp(kFrame - beside_ms_, kLeast, kMost);
   }
 
   void set_title() {
@@ -383,6 +394,7 @@ class Viewer {
   bool taken_ = false;
   int awake_ = 3;  // frames to draw at once
   double first_picture_ms_ = 0;
+  double beside_ms_ = 0;  // of a frame, beside pictures
 };
 
 }  // namespace
