@@ -7,6 +7,11 @@
 
 namespace shlight::viewer {
 
+const ShadowRatio& ModelAsset::shadow_ratio() const {
+  std::call_once(has_ratio_, [this] { ratio_.emplace(content.scene, content.transfer); });
+  return *ratio_;
+}
+
 Model load_model(const std::string& name, int serial) {
   auto model = std::make_shared<ModelAsset>();
   model->name = name;

@@ -21,7 +21,7 @@ struct Command {
 constexpr std::array kCommands = {
     Command{"set", 2, 99, "set NAME VALUE"},
     Command{"open", 1, 99, "open FILE"},
-    Command{"drag", 5, 5, "drag left|middle|right X0 Y0 X1 Y1"},
+    Command{"drag", 5, 6, "drag left|middle|right X0 Y0 X1 Y1 [unfocus]"},
     Command{"click", 2, 2, "click X Y"},
     Command{"press", 1, 1, "press KEY"},
     Command{"wheel", 1, 1, "wheel STEPS"},

@@ -23,6 +23,17 @@ bool needs_transfer(const Look& look) {
   return look.show == Show::kVisibility || (look.show != Show::kNormals && look.method == Method::kTransfer);
 }
 
+// What was baked shadows what is drawn by tables, too, as `render` does it.
+bool needs_shadows(const Subject& subject, const Look& look) {
+  return subject.model->is_baked && needs_tables(look) && look.transfer != TransferKind::kCosine;
+}
+
+std::string text_of(const Rotation& rotation) {
+  std::string text;
+  for (const Vec3d& row : rotation.rows) text += fmt::format(" {} {} {}", row.x, row.y, row.z);
+  return text;
+}
+
 // What a bake depends on. A baked file has its transfer already.
 std::string bake_key(const Subject& subject, const Look& look) {
   if (subject.model->is_baked) return subject.model->key + " baked";
@@ -43,8 +54,7 @@ std::string trace_key(const Subject& subject, const Settings& s, const Look& loo
                                 look.material, to_text(look.transfer), look.bounces, s.background, s.camera.azimuth,
                                 s.camera.elevation, s.camera.zoom, width, height);
   key += fmt::format(" {} {} {}", s.camera.target.x, s.camera.target.y, s.camera.target.z);
-  for (const Vec3d& row : s.rotate_light.rows) key += fmt::format(" {} {} {}", row.x, row.y, row.z);
-  return key;
+  return key + text_of(s.rotate_light);
 }
 
 // Passes of more and more paths; the first ones of few pixels, to have something soon.
@@ -158,6 +168,23 @@ void Side::request_bake(const Subject& subject, const Look& look) {
       true);
 }
 
+// Of the light as it falls now: they are found anew while it turns.
+void Side::request_shadows(const Subject& subject, const Settings& settings, const Look& look) {
+  const int degree = look.show == Show::kDegree ? std::min(look.degree, look.bands - 1) : -1;
+  const std::string key = fmt::format("{} {} {} {} {}{}", subject.model->key, subject.light->key, look.window,
+                                      look.bands, degree, text_of(settings.rotate_light));
+  if (key == shadow_.wanted()) return;
+  RgbCoefficients light = shaped_light(subject, look, look.bands);
+  if (degree >= 0) light = keep_degree(light, degree);
+  shadow_.request(
+      key,
+      [model = subject.model, light = rotate(settings.rotate_light, light)](const auto& publish, const Progress&) {
+        publish(
+            std::make_shared<const Shadows>(Shadows{model->key, model->shadow_ratio().under(light, worker_threads())}));
+      },
+      false);
+}
+
 void Side::request_trace(const Subject& subject, const Settings& settings, const Look& look) {
   PathTraceParams params;
   params.width = width_, params.height = height_;
@@ -187,6 +214,14 @@ bool Side::take_news() {
   if (auto bake = bake_.poll()) {
     if (bake->result) transfer_ = *bake->result, news = true;
     if (!bake->error.empty()) error_ = bake->error;
+  }
+  if (auto shadow = shadow_.poll()) {
+    if (shadow->result) {
+      shadows_ = std::make_shared<const GpuShadows>((*shadow->result)->of_vertices);
+      shadows_model_ = (*shadow->result)->model;
+      news = true;
+    }
+    if (!shadow->error.empty()) error_ = shadow->error;
   }
   if (auto trace = trace_.poll()) {
     if (trace->result && trace->key == trace_.wanted()) {
@@ -306,6 +341,10 @@ bool Side::update(const Subject& subject, const Settings& settings, const Look& 
     if (needs_tables(look)) request_tables(subject, look);
     if (needs_transfer(look)) request_bake(subject, look);
     if (!needs_transfer(look)) bake_.cancel();
+    if (needs_shadows(subject, look))
+      request_shadows(subject, settings, look);
+    else
+      shadow_.cancel();
     changed = build_renderer(subject, look) || changed;
   }
   return changed;
@@ -347,15 +386,25 @@ void Side::begin_picture(const Subject& subject, const Settings& settings, const
   const float bright = look.mark_negative ? static_cast<float>(1 / exposed(scale_, params)) : 0;
   mark_negative(*renderer_, {bright, 0, bright});
   GpuScene& scene = subject.gpu->get(needs_tangents(*renderer_), built_.show != Show::kVisibility);
-  begun_ = {subject.gpu, &scene, settings.background && lit ? &*background_ : nullptr, params, &canvas, coarseness};
+  const bool has_shadows = needs_shadows(subject, look) && shadows_model_ == subject.model->key;
+  begun_ = {subject.gpu,
+            &scene,
+            settings.background && lit ? &*background_ : nullptr,
+            has_shadows ? shadows_ : nullptr,
+            params,
+            &canvas,
+            coarseness};
   canvas.parts.begin(scene);
 }
 
 bool Side::draw(double ms) {
   if (!begun_) return false;
-  auto& [gpu, scene, background, params, canvas, coarseness] = *begun_;
-  if (!canvas->parts.draw(*scene, {*scene, gpu->asset().extent, *renderer_, background, scale_}, params, ms))
-    return false;
+  auto& [gpu, scene, background, shadows, params, canvas, coarseness] = *begun_;
+  scene->set_shadows(shadows.get());  // the other side draws the same scene with its own
+  const Drawing drawing = {*scene, gpu->asset().extent, *renderer_, background, scale_};
+  const bool is_complete = canvas->parts.draw(*scene, drawing, params, ms);
+  scene->set_shadows(nullptr);
+  if (!is_complete) return false;
   cost_ = {coarseness, canvas->parts.spent_ms()};
   frame_ = &canvas->frame;
   shown_canvases_.clear();
@@ -383,7 +432,7 @@ Image Side::read_radiance() const {
 
 bool Side::settled(const Look& look) const {
   if (look.method == Method::kReference) return traced_.samples > 0 && traced_key_ == trace_.wanted();
-  return !table_.busy() && !bake_.busy() && !upcoming_;
+  return !table_.busy() && !bake_.busy() && !shadow_.busy() && !upcoming_;
 }
 
 std::string Side::activity() const {

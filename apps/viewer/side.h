@@ -89,6 +89,10 @@ class Side {
     bool final = false;
   };
 
+  struct Shadows {
+    std::string model;
+    std::vector<Vec3f> of_vertices;
+  };
   // What a renderer was made for.
   struct Built {
     std::string key, model;
@@ -99,6 +103,7 @@ class Side {
 
   void request_tables(const Subject& subject, const Look& look);
   void request_bake(const Subject& subject, const Look& look);
+  void request_shadows(const Subject& subject, const Settings& settings, const Look& look);
   void request_trace(const Subject& subject, const Settings& settings, const Look& look);
   bool take_news();
   bool build_renderer(const Subject& subject, const Look& look);
@@ -110,6 +115,7 @@ class Side {
 
   Task<std::shared_ptr<const Tables>> table_;
   Task<std::shared_ptr<const BakedTransfer>> bake_;
+  Task<std::shared_ptr<const Shadows>> shadow_;
   Task<PathTraceResult> trace_;
   std::string cancelled_;  // the key of a bake that is not to go on
   std::optional<std::string> error_;
@@ -117,6 +123,9 @@ class Side {
   std::shared_ptr<const Tables> tables_;
   std::shared_ptr<const BakedTransfer> transfer_;
   Built built_;
+  // What the newest Shadows are on the card.
+  std::shared_ptr<const GpuShadows> shadows_;
+  std::string shadows_model_;
   std::string light_key_, background_key_;
   std::optional<SurfaceRenderer> renderer_;
   // A renderer whose transfer is still on its way to the card; renderer_ draws until it is there.
@@ -143,6 +152,7 @@ class Side {
     std::shared_ptr<GpuModel> gpu;
     GpuScene* scene;
     const Background* background;
+    std::shared_ptr<const GpuShadows> shadows;
     FrameParams params;
     Canvas* canvas;
     int coarseness;

@@ -16,7 +16,8 @@ std::string drawing_key(const Settings& s, const Look& look) {
   std::string key = fmt::format("{} {} {} {} {} {} {} {} {} {} {}", s.camera.azimuth, s.camera.elevation, s.camera.zoom,
                                 s.camera.target.x, s.camera.target.y, s.camera.target.z, s.exposure,
                                 static_cast<int>(s.curve), s.background, look.window, look.mark_negative);
-  key += fmt::format(" {} {} {}", static_cast<int>(look.method), look.degree, static_cast<int>(look.show));
+  key += fmt::format(" {} {} {} {}", static_cast<int>(look.method), static_cast<int>(look.transfer), look.degree,
+                     static_cast<int>(look.show));
   for (const Vec3d& row : s.rotate_light.rows) key += fmt::format(" {} {} {}", row.x, row.y, row.z);
   return key;
 }

@@ -59,18 +59,21 @@ class Viewer {
       // While a script only waits, processors are left to what it waits for.
       const bool waits = scripted && (script_.ended() || script_.line().words[0] == "wait");
       const bool busy = scripted || studio_.busy() || insight_.busy();
-      const double wait = awake_ > 0 || studio_.drawing() || (scripted && !waits) ? 0 : busy ? 0.06 : 0.25;
+      const bool seen = window_.width() > 0 && window_.height() > 0;  // else it is minimised
+      const double wait = !seen                                                     ? 0.1
+                          : awake_ > 0 || studio_.drawing() || (scripted && !waits) ? 0
+                          : busy                                                    ? 0.06
+                                                                                    : 0.25;
       window_.poll(wait);
       for (const std::string& path : window_.take_dropped()) studio_.open(path);
       if (window_.take_events()) awake_ = kAfterEvent;
-      frame();
+      if (seen) frame();
     }
   }
 
  private:
   void frame() {
     const int width = window_.width(), height = window_.height();
-    if (width < 1 || height < 1) return;  // minimised
     const auto start = Clock::now();
     gpu_timer_.begin(times_.count());
     const Layout layout = make_layout(studio_.settings, width, height, window_.scale());
@@ -111,11 +114,12 @@ class Viewer {
     awake_ = changed ? 2 : std::max(awake_ - 1, 0);
   }
 
-  // How long this frame may draw pictures: what is left of a frame's time after all else. The first picture is to be
-  // there soon.
+  // How long this frame may draw pictures: what is left of a frame's time after all else; where that is not much, so
+  // long that pictures do not take several times as long as they have to. The first one is to be there soon.
   double drawing_ms() const {
-    constexpr double kFrame = 36, kLeast = 6, kMost = 24, kFirst = 150;
-    return first_picture_ms_ == 0 ? kFirst : std::clamp(kFrame - beside_ms_, kLeast, kMost);
+    constexpr double kFrame = 36, kMost = 24, kFirst = 150, kShare = 0.5;
+    if (first_picture_ms_ == 0) return kFirst;
+    return std::max(std::min(kFrame - beside_ms_, kMost), kShare * beside_ms_);
   }
 
   void set_title() {
@@ -238,6 +242,13 @@ class Viewer {
     return value;
   }
 
+  static int pixels(const std::string& text) {
+    const double value = number(text);
+    if (value < 1 || value > 16384 || value != std::floor(value))
+      throw Error("'" + text + "'", "is no side of a window", "a whole number from 1 to 16384");
+    return static_cast<int>(value);
+  }
+
   // The next line, or what is left of it; false where the window is to close.
   bool run_script() {
     if (!script_.ended()) {
@@ -295,7 +306,7 @@ class Viewer {
     } else if (what == "wheel") {
       zoom(s, number(line.words[1]));
     } else if (what == "resize") {
-      window_.resize(static_cast<int>(number(line.words[1])), static_cast<int>(number(line.words[2])));
+      window_.resize(pixels(line.words[1]), pixels(line.words[2]));
     } else if (what == "cancel") {
       studio_.side(s.side).cancel();
     } else if (what == "reset") {
@@ -325,6 +336,7 @@ class Viewer {
     const auto button = kButtons.find(line.words[1]);
     if (button == kButtons.end()) throw Error("'" + line.words[1] + "'", "is no button", "left, middle, right");
     const double t = std::clamp((progress_ - 2.0) / kSteps, 0.0, 1.0);
+    if (line.words.size() > 6 && progress_ == 2) window_.lose_focus();
     const auto at = [&](std::size_t i) {
       return static_cast<float>((1 - t) * number(line.words[i]) + t * number(line.words[i + 2]));
     };
