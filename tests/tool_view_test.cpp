@@ -266,7 +266,7 @@ TEST_F(ToolView, RefusesWhatItCannotDo) {
   expect_refused({"view", "builtin:sphere", "--script", write("bad2", "set bands eleven\n")}, path("bad2") + ":1",
                  "'eleven'");
   expect_refused({"view", "builtin:sphere", "--script", write("bad3", "resize 0 0\n")}, path("bad3") + ":1",
-                 "'0' is no side of a window");
+                 "'0': is no side of a window");
   expect_refused({"view", "nowhere.obj", "--screenshot", path("a.png")}, "nowhere.obj", "");
 }
 

@@ -1,6 +1,10 @@
 #include "frame_times.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <fstream>
+#include <string>
 #include <vector>
 
 namespace shlight::viewer {
@@ -36,6 +40,20 @@ FrameTimes::Summary FrameTimes::summary() const {
     return Frame{quantile(total, q), quantile(own, q), gpu.empty() ? std::nullopt : std::optional(quantile(gpu, q))};
   };
   return {of(0.5), of(0.99), of(1)};
+}
+
+// From proc(5): the 22nd field of stat is when the process started, in ticks since the machine did; the first of uptime
+// is now, in seconds.
+double process_age_ms() {
+  constexpr int kStartField = 22;
+  std::ifstream stat("/proc/self/stat"), uptime("/proc/uptime");
+  double now = 0, start = 0;
+  std::string field;
+  // The second field is the program's name between brackets, in which there may be anything.
+  std::getline(stat, field, ')');
+  for (int i = 3; i < kStartField; ++i) stat >> field;
+  if (!(stat >> start) || !(uptime >> now)) return 0;
+  return 1000 * (now - start / static_cast<double>(::sysconf(_SC_CLK_TCK)));
 }
 
 }  // namespace shlight::viewer

@@ -61,7 +61,9 @@ void table(const FrameTimes::Summary& s) {
 }  // namespace
 
 void timing_panel(const Studio& studio, const FrameTimes& times, const Layout& layout) {
-  begin_overlay("timing", {layout.left + layout.picture_width() - 16 * layout.scale, 16 * layout.scale}, {1, 0});
+  // Below the picture's label where there is no room beside it.
+  const float top = layout.picture_width() < 700 * layout.scale ? 56 : 16;
+  begin_overlay("timing", {layout.left + layout.picture_width() - 16 * layout.scale, top * layout.scale}, {1, 0});
   ImGui::PushFont(heading_font());
   ImGui::TextUnformatted("Frames");
   ImGui::PopFont();

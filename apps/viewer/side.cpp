@@ -436,9 +436,11 @@ bool Side::settled(const Look& look) const {
 }
 
 std::string Side::activity() const {
-  if (bake_.busy()) return fmt::format("baking, {:.0f} %", 100 * bake_.fraction());
-  if (table_.busy()) return "computing how it reflects";
-  if (trace_.busy()) return traced_.samples > 0 ? fmt::format("{} paths a pixel", traced_.samples) : "tracing";
+  // What was cancelled and has not ended yet is nobody's business.
+  const auto works = [](const auto& task) { return task.busy() && !task.wanted().empty(); };
+  if (works(bake_)) return fmt::format("baking, {:.0f} %", 100 * bake_.fraction());
+  if (works(table_)) return "computing how it reflects";
+  if (works(trace_)) return traced_.samples > 0 ? fmt::format("{} paths a pixel", traced_.samples) : "tracing";
   return "";
 }
 

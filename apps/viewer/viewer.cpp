@@ -103,7 +103,7 @@ class Viewer {
     screenshot_now();
     window_.show();
     grant_wishes();
-    if (studio_.has_picture() && first_picture_ms_ == 0) first_picture_ms_ = ms_since(started_);
+    if (studio_.has_picture() && first_picture_ms_ == 0) first_picture_ms_ = process_age_ms();
     // Forgets slowly that it once took longer.
     constexpr double kForget = 0.1;
     beside_ms_ = std::max(ms_since(start) - update_ms, (1 - kForget) * beside_ms_);
@@ -389,7 +389,6 @@ class Viewer {
   }
 
   ViewerParams params_;
-  Clock::time_point started_ = Clock::now();
   Script script_;
   Window window_;  // before all that draws in its context
   Studio studio_;
