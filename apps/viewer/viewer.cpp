@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "command_line.h"
 #include "frame_times.h"
@@ -103,7 +104,7 @@ class Viewer {
     screenshot_now();
     window_.show();
     grant_wishes();
-    if (studio_.has_picture() && first_picture_ms_ == 0) first_picture_ms_ = process_age_ms();
+    if (studio_.has_picture() && !first_picture_ms_) first_picture_ms_ = process_age_ms();
     // Forgets slowly that it once took longer.
     constexpr double kForget = 0.1;
     beside_ms_ = std::max(ms_since(start) - update_ms, (1 - kForget) * beside_ms_);
@@ -118,7 +119,7 @@ class Viewer {
   // long that pictures do not take several times as long as they have to. The first one is to be there soon.
   double drawing_ms() const {
     constexpr double kFrame = 36, kMost = 24, kFirst = 150, kShare = 0.5;
-    if (first_picture_ms_ == 0) return kFirst;
+    if (!first_picture_ms_) return kFirst;
     return std::max(std::min(kFrame - beside_ms_, kMost), kShare * beside_ms_);
   }
 
@@ -365,7 +366,7 @@ class Viewer {
     };
     const Side& side = studio_.side(studio_.settings.side);
     nlohmann::ordered_json json = {
-        {"first_picture_ms", first_picture_ms_},
+        {"first_picture_ms", first_picture_ms_.value_or(0)},
         {"frames", times_.count()},
         {"frames_since_report", reported_.kept().size()},
         {"frame_ms", three([](const FrameTimes::Frame& f) { return f.total_ms; })},
@@ -404,7 +405,7 @@ class Viewer {
   std::filesystem::path wanted_screenshot_;
   bool taken_ = false;
   int awake_ = 3;  // frames to draw at once
-  double first_picture_ms_ = 0;
+  std::optional<double> first_picture_ms_;
   double beside_ms_ = 0;  // of a frame, beside pictures
 };
 
