@@ -408,6 +408,7 @@ bool Side::draw(double ms) {
   cost_ = {coarseness, canvas->parts.spent_ms()};
   frame_ = &canvas->frame;
   shown_canvases_.clear();
+  radiance_.reset();
   showing_trace_ = false;
   begun_.reset();
   return true;
@@ -426,8 +427,11 @@ Image8 Side::read_picture() const {
   return showing_trace_ ? traced_picture_->read_picture() : frame_->read_picture();
 }
 
-Image Side::read_radiance() const {
-  return showing_trace_ ? traced_.radiance : frame_->read_radiance();
+// Kept, as a converging reference is compared with the same picture again and again.
+const Image& Side::read_radiance() const {
+  if (showing_trace_) return traced_.radiance;
+  if (!radiance_) radiance_ = frame_->read_radiance();
+  return *radiance_;
 }
 
 bool Side::settled(const Look& look) const {

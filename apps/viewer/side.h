@@ -59,7 +59,7 @@ class Side {
   unsigned texture() const;
   bool has_picture() const;  // needed by these
   Image8 read_picture() const;
-  Image read_radiance() const;
+  const Image& read_radiance() const;
 
   // Whether what is drawn is what the look asks for, as good as it gets.
   bool settled(const Look& look) const;
@@ -144,9 +144,10 @@ class Side {
     FrameInParts parts;
     Canvas(int width, int height) : frame(width, height), parts(frame) {}
   };
-  std::map<int, Canvas> canvases_;        // by coarseness
-  std::map<int, Canvas> shown_canvases_;  // of another size, that frame_ may be among
-  FrameRenderer* frame_ = nullptr;        // that was completed last
+  std::map<int, Canvas> canvases_;         // by coarseness
+  std::map<int, Canvas> shown_canvases_;   // of another size, that frame_ may be among
+  FrameRenderer* frame_ = nullptr;         // that was completed last
+  mutable std::optional<Image> radiance_;  // of that, where it was asked for
   // A picture on its way: all that it was begun with.
   struct Begun {
     std::shared_ptr<GpuModel> gpu;

@@ -108,7 +108,7 @@ void Studio::request_difference() {
   const std::string key =
       fmt::format("{} {} {}", drawn_key_, doubling(sides_[0].traced_samples()), doubling(sides_[1].traced_samples()));
   if (key == difference_.wanted()) return;
-  const Image a = sides_[0].read_radiance(), b = sides_[1].read_radiance();
+  const Image &a = sides_[0].read_radiance(), &b = sides_[1].read_radiance();
   if (a.width == b.width && a.height == b.height) difference_.request(key, a, b);
 }
 
