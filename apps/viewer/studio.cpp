@@ -26,6 +26,11 @@ std::string drawing_key(const Settings& s, const Look& look) {
 
 Studio::Studio(const Settings& start, bool remember) : settings(start), initial_(start), recent_(remember) {}
 
+void Studio::load() {
+  take_model();
+  take_light();
+}
+
 void Studio::open(const std::string& path) {
   if (is_model_file(path) || is_baked_file(path))
     settings.model = path, model_wanted_.clear();
@@ -171,8 +176,7 @@ void Studio::draw_finely() {
 }
 
 bool Studio::update(int width, int height, double ms) {
-  take_model();
-  take_light();
+  load();
   const auto now = std::chrono::steady_clock::now();
   bool changed = std::erase_if(messages_, [now](const Message& message) { return message.until < now; }) > 0;
   if (!ready() || width < 1 || height < 1) return changed;

@@ -22,6 +22,8 @@ class Studio {
 
   Settings settings;
 
+  // Begins to load what update() is going to ask for. Needs no context.
+  void load();
   // Opens a file as what it seems to be: a model, a baked file or a light.
   void open(const std::string& path);
   // Everything but model and light as it was in the beginning.

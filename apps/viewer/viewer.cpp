@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -42,11 +43,8 @@ double ms_since(Clock::time_point start) {
 
 class Viewer {
  public:
-  explicit Viewer(const ViewerParams& params)
-      : params_(params),
-        script_(params.script.empty() ? Script() : Script(params.script)),
-        window_(params.width, params.height, params.scale),
-        studio_(params.settings, params.script.empty() && params.screenshot.empty()) {}
+  Viewer(const ViewerParams& params, Script script, Window& window, std::unique_ptr<Studio> studio)
+      : params_(params), script_(std::move(script)), window_(window), owned_studio_(std::move(studio)) {}
 
   void run() {
     while (!window_.closed() && !(params_.asked_to_stop && params_.asked_to_stop())) {
@@ -62,6 +60,7 @@ class Viewer {
       const bool busy = scripted || studio_.busy() || insight_.busy();
       const bool seen = window_.width() > 0 && window_.height() > 0;  // else it is minimised
       const double wait = !seen                                                     ? 0.1
+                          : !studio_.ready()                                        ? 0.004
                           : awake_ > 0 || studio_.drawing() || (scripted && !waits) ? 0
                           : busy                                                    ? 0.06
                                                                                     : 0.25;
@@ -391,8 +390,9 @@ class Viewer {
 
   ViewerParams params_;
   Script script_;
-  Window window_;  // before all that draws in its context
-  Studio studio_;
+  Window& window_;
+  std::unique_ptr<Studio> owned_studio_;
+  Studio& studio_ = *owned_studio_;
   Insight insight_;
   GpuTimer gpu_timer_;
   FrameTimes times_ = FrameTimes(kShownFrames, gpu_timer_.available());
@@ -412,7 +412,13 @@ class Viewer {
 }  // namespace
 
 void run_viewer(const ViewerParams& params) {
-  Viewer(params).run();
+  Script script = params.script.empty() ? Script() : Script(params.script);
+  Window::require_display();
+  // What is shown is loaded while the window opens.
+  auto studio = std::make_unique<Studio>(params.settings, params.script.empty() && params.screenshot.empty());
+  studio->load();
+  Window window(params.width, params.height, params.scale);
+  Viewer(params, std::move(script), window, std::move(studio)).run();
 }
 
 }  // namespace shlight::viewer

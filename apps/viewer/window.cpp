@@ -47,8 +47,12 @@ Window* of(GLFWwindow* window) {
 
 }  // namespace
 
-Window::Window(int width, int height, double scale) {
+void Window::require_display() {
   if (!glfwInit()) throw_no_window();
+}
+
+Window::Window(int width, int height, double scale) {
+  require_display();
   window_ = open_window(width, height);
   if (!window_) throw_no_window();
   glfwMakeContextCurrent(window_);

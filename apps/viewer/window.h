@@ -14,6 +14,8 @@ class Window {
   // Sizes are in the units of the display; `scale` enlarges text and controls, 0 as the display wants it. Throws Error
   // where there is no display or no such context.
   Window(int width, int height, double scale);
+  // The same Error where there is no display, before there is a window.
+  static void require_display();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
   ~Window();
