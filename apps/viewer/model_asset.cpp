@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <thread>
+
 #include "shlight/light/project_image.h"
 #include "shlight/scene/load_scene.h"
 
@@ -48,8 +51,14 @@ void load_lighting(const std::string& name, int serial, const Task<Lighting>::Pu
   if (loaded->info.kind == LightInfo::Kind::kBuiltin || loaded->info.kind == LightInfo::Kind::kFormula) {
     const Image quick = loaded->light->lat_long(kQuickWidth, worker_threads());
     publish_light({project_image({quick, Layout::kLatLong}, kMaxRenderBands, worker_threads()), quick}, false);
+    // That is drawn now: for a moment, all processors are for it.
+    be_patient();
+    constexpr int kMoments = 30;
+    for (int i = 0; i < kMoments; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      report_progress(progress, 0.3);
+    }
   }
-  be_patient();  // there is something to see already
   publish_light(make_render_light(*loaded->light, kMaxRenderBands, kFullWidth, worker_threads()), true);
 }
 

@@ -25,7 +25,7 @@ inline int worker_threads() {
 
 // From now on, the calling thread leaves processors to the window and to what draws it where those want them.
 inline void be_patient() {
-  constexpr int kNice = 10;
+  constexpr int kNice = 5;
   ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);
 }
 
