@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "shlight/brdf/make_brdf.h"
 #include "shlight/light/window_name.h"
-#include "shlight/truth/accumulate_paths.h"
+#include "tracing.h"
 
 namespace shlight::viewer {
 namespace {
@@ -57,39 +56,6 @@ std::string trace_key(const Subject& subject, const Settings& s, const Look& loo
   return key + text_of(s.rotate_light);
 }
 
-// Passes of more and more paths; the first ones of few pixels, to have something soon.
-void trace(const ModelAsset& model, const LightAsset& light, PathTraceParams params,
-           const Task<PathTraceResult>::Publish& publish, const Progress& progress) {
-  const int width = params.width, height = params.height;
-  params.samples = kReplicates;
-  for (const int smaller : {8, 4}) {
-    params.width = std::max(width / smaller, 1), params.height = std::max(height / smaller, 1);
-    PathTraceResult quick =
-        trace_paths(model.content.scene, *light.loaded->light, params, [&](double) { return progress(0); });
-    quick.samples = 0;  // pixels are larger than those that are asked for
-    publish(std::move(quick));
-  }
-  params.width = width, params.height = height;
-  constexpr int kEnough = 4096, kLargestPass = 256;
-  PathTraceResult sum;
-  while (sum.samples < kEnough) {
-    params.samples = std::clamp(sum.samples, kReplicates, kLargestPass);
-    accumulate_paths(trace_paths(model.content.scene, *light.loaded->light, params,
-                                 [&](double) { return progress(static_cast<double>(sum.samples) / kEnough); }),
-                     sum);
-    ++params.seed;
-    publish(sum);
-  }
-}
-
-// Root mean square of the pixels' deviations, relative to the picture's.
-double relative_noise(const PathTraceResult& result) {
-  double variance = 0, square = 0;
-  for (const float v : result.variance.values) variance += double{v};
-  for (const float v : result.radiance.values) square += double{v} * double{v};
-  return square > 0 ? std::sqrt(variance / square) : 0;
-}
-
 std::size_t bytes_of(const std::vector<SurfaceReflectance>& surfaces) {
   std::size_t floats = 0;
   for (const SurfaceReflectance& surface : surfaces) {
@@ -100,14 +66,6 @@ std::size_t bytes_of(const std::vector<SurfaceReflectance>& surfaces) {
 }
 
 }  // namespace
-
-GpuScene& GpuModel::get(bool tangents, bool colors) {
-  const std::pair key = {tangents, colors};
-  const auto found = scenes_.find(key);
-  if (found != scenes_.end()) return found->second;
-  const Scene& scene = model_->content.scene;
-  return scenes_.emplace(key, GpuScene(colors ? scene : without_colors(scene), tangents)).first->second;
-}
 
 void Side::request_tables(const Subject& subject, const Look& look) {
   const std::string key = table_key(subject, look);
@@ -200,7 +158,7 @@ void Side::request_trace(const Subject& subject, const Settings& settings, const
         PathTraceParams with_brdf = params;
         const auto brdf = look.material.empty() ? nullptr : make_brdf(look.material);
         with_brdf.brdf = brdf.get();
-        trace(*model, *light, with_brdf, publish, progress);
+        trace_ever_finer(*model, *light, with_brdf, publish, progress);
       },
       true);
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu_model.h"
 #include "model_asset.h"
 #include "settings.h"
 #include "shlight/render/frame_in_parts.h"
@@ -14,18 +15,6 @@
 #include "task.h"
 
 namespace shlight::viewer {
-
-// A model on the graphics card, in the ways that renderers ask for it, shared by both sides.
-class GpuModel {
- public:
-  explicit GpuModel(Model model) : model_(std::move(model)) {}
-  GpuScene& get(bool tangents, bool colors);
-  const ModelAsset& asset() const { return *model_; }
-
- private:
-  Model model_;
-  std::map<std::pair<bool, bool>, GpuScene> scenes_;
-};
 
 // What both sides show.
 struct Subject {

@@ -5,7 +5,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -234,21 +233,6 @@ class Viewer {
 
   // --- scripts
 
-  static double number(const std::string& text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value) || std::abs(value) > 1e6)
-      throw Error("'" + text + "'", "is no number", "a number from -1000000 to 1000000");
-    return value;
-  }
-
-  static int pixels(const std::string& text) {
-    const double value = number(text);
-    if (value < 1 || value > 16384 || value != std::floor(value))
-      throw Error("'" + text + "'", "is no side of a window", "a whole number from 1 to 16384");
-    return static_cast<int>(value);
-  }
-
   // The next line, or what is left of it; false where the window is to close.
   bool run_script() {
     if (!script_.ended()) {
@@ -274,14 +258,14 @@ class Viewer {
     const std::string& what = line.words[0];
     if (!wanted_screenshot_.empty()) return false;
     if (what == "wait") {
-      const int paths = line.words.size() > 1 ? static_cast<int>(number(line.words[1])) : 1;
+      const int paths = line.words.size() > 1 ? static_cast<int>(to_number(line.words[1])) : 1;
       const bool quiet = studio_.settled(paths) && !insight_.busy();
       return quiet ? ++progress_ > 3 : (progress_ = 0, false);
     }
-    if (what == "frames") return ++progress_ > static_cast<int>(number(line.words[1]));
+    if (what == "frames") return ++progress_ > static_cast<int>(to_number(line.words[1]));
     if (what == "spin") {
       orbit(studio_.settings, 0.01, 0);
-      return ++progress_ >= static_cast<int>(number(line.words[1]));
+      return ++progress_ >= static_cast<int>(to_number(line.words[1]));
     }
     if (what == "drag") return drag(line);
     if (what == "click") return click(line);
@@ -302,11 +286,11 @@ class Viewer {
     } else if (what == "open") {
       studio_.open(line.rest);
     } else if (what == "press") {
-      pressed_ = key_of(line.words[1]);
+      pressed_ = to_key(line.words[1]);
     } else if (what == "wheel") {
-      zoom(s, number(line.words[1]));
+      zoom(s, to_number(line.words[1]));
     } else if (what == "resize") {
-      window_.resize(pixels(line.words[1]), pixels(line.words[2]));
+      window_.resize(to_pixels(line.words[1]), to_pixels(line.words[2]));
     } else if (what == "cancel") {
       studio_.side(s.side).cancel();
     } else if (what == "reset") {
@@ -322,13 +306,6 @@ class Viewer {
     }
   }
 
-  static int key_of(const std::string& name) {
-    if (name == "Tab") return GLFW_KEY_TAB;
-    if (name.size() == 1 && std::isalnum(static_cast<unsigned char>(name[0])))
-      return std::toupper(static_cast<unsigned char>(name[0]));  // GLFW's names of keys are their capital letters
-    throw Error("'" + name + "'", "is no key", "a letter, a digit or Tab");
-  }
-
   // Presses, moves in steps, lets go.
   bool drag(const ScriptLine& line) {
     constexpr int kSteps = 6;
@@ -338,14 +315,14 @@ class Viewer {
     const double t = std::clamp((progress_ - 2.0) / kSteps, 0.0, 1.0);
     if (line.words.size() > 6 && progress_ == 2) window_.lose_focus();
     const auto at = [&](std::size_t i) {
-      return static_cast<float>((1 - t) * number(line.words[i]) + t * number(line.words[i + 2]));
+      return static_cast<float>((1 - t) * to_number(line.words[i]) + t * to_number(line.words[i + 2]));
     };
     window_.point(at(2), at(3), progress_ == 0 || progress_ > kSteps + 2 ? -1 : button->second);
     return ++progress_ > kSteps + 3;
   }
 
   bool click(const ScriptLine& line) {
-    window_.point(static_cast<float>(number(line.words[1])), static_cast<float>(number(line.words[2])),
+    window_.point(static_cast<float>(to_number(line.words[1])), static_cast<float>(to_number(line.words[2])),
                   progress_ == 1 ? 0 : -1);
     return ++progress_ > 3;
   }
