@@ -44,7 +44,8 @@ END
 shot visibility builtin:scene <<'END'
 set show visibility
 set timing on
-spin 60
+wait
+spin 200
 END
 
 shot keys builtin:scene --light builtin:sky:elevation=8,azimuth=-110,turbidity=3 <<'END'
@@ -64,6 +65,7 @@ shot difference builtin:knot --light builtin:studio <<END
 set camera 20,12,1.15
 set transfer interreflected
 set bands 3
+set window none
 set side b
 set method reference
 set transfer interreflected

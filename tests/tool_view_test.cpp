@@ -135,6 +135,25 @@ TEST_F(ToolView, OpensWhatIsDroppedAsWhatItIs) {
   EXPECT_LE(largest_difference(load_image8(path("shown.png")), draw_command("line")), 2);
 }
 
+TEST_F(ToolView, ABakedModelHasItsShadowsByAnyMethod) {
+  run({"bake", "builtin:knot", "--transfer", "shadowed", "--samples", "64", "--bands", "3", "-o", path("baked.glb")});
+  save_image(path("light.exr"), make_studio_light()->lat_long(64));
+  const std::string look = "\nset material ggx:alpha=0.3,f0=0.9\nset bands 3\n";
+  view_well("open " + path("baked.glb") + "\nframes 3\nwait\nresize 240 180\nset method hybrid" + look +
+                "wait\npicture " + path("still.png") + "\nset rotate-light 70\nframes 3\nwait\npicture " +
+                path("a.png") + "\ncommand " + path("a") + "\nset side b\nset method reflectance" + look +
+                "set transfer cosine\nwait\npicture " + path("b.png") + "\ncommand " + path("b") +
+                "\nset transfer shadowed\nset compare split\nset divider 0\nwait\npicture " + path("split.png") +
+                "\ncommand " + path("split") + "\n",
+            {"--light", path("light.exr")});
+  for (const std::string name : {"a", "b", "split"})
+    EXPECT_LE(largest_difference(load_image8(path(name + ".png")), draw_command(name)), 2) << text_of(path(name));
+  EXPECT_EQ(text_of(path("a")).find("--transfer"), std::string::npos);
+  EXPECT_NE(text_of(path("b")).find("--transfer cosine"), std::string::npos);
+  EXPECT_GT(largest_difference(load_image8(path("b.png")), load_image8(path("split.png"))), 20) << "the shadows";
+  EXPECT_GT(largest_difference(load_image8(path("a.png")), load_image8(path("still.png"))), 20) << "the light turned";
+}
+
 TEST_F(ToolView, ABakeGetsBetterAndCanBeStopped) {
   view_well(
       "set method transfer\nset transfer shadowed\nset samples 8192\nset bands 3\n"
@@ -182,6 +201,47 @@ TEST_F(ToolView, IsDrawnInWindowsOfAnySize) {
   EXPECT_EQ(window.height, 790);
 }
 
+TEST_F(ToolView, ATinyWindowAndOneOfNothingComeBack) {
+  view_well("wait\npicture " + path("before.png") + "\nresize 60 40\nframes 4\nwait\nscreenshot " + path("tiny.png") +
+            "\nresize 1 1\nframes 4\nreport " + path("nothing") + "\nresize 620 300\nframes 4\nwait\npicture " +
+            path("after.png") + "\n");
+  const Image8 tiny = load_image8(path("tiny.png"));
+  EXPECT_EQ(tiny.width, 60);
+  EXPECT_EQ(tiny.height, 40);
+  EXPECT_GT(num_colors(tiny), 5u) << "the picture has what there is";
+  EXPECT_EQ(report("nothing")["last_error"], "");
+  EXPECT_EQ(largest_difference(load_image8(path("before.png")), load_image8(path("after.png"))), 0);
+}
+
+TEST_F(ToolView, FillsAScreenOfFourThousandPixels) {
+  const VirtualDisplay large(3840, 2160);
+  ASSERT_EQ(large.problem(), "");
+  save_image(path("light.exr"), make_studio_light()->lat_long(64));
+  view_well("set controls off\nresize 3840 2160\nframes 1\nwait\npicture " + path("large.png") + "\nreport " +
+                path("report") + "\n",
+            {"--light", path("light.exr")});
+  const Image8 picture = load_image8(path("large.png"));
+  EXPECT_EQ(picture.width, 3840);
+  EXPECT_EQ(picture.height, 2160);
+  EXPECT_GT(num_colors(picture), 50u);
+  EXPECT_EQ(report("report")["last_error"], "");
+}
+
+TEST_F(ToolView, ControlsOfTwiceTheSizeFitTheirWindow) {
+  view_well("resize 1240 780\nframes 3\nwait\nreport " + path("report") + "\nscreenshot " + path("large.png") + "\n",
+            {"--scale", "2"});
+  EXPECT_EQ(report("report")["scale"], 2);
+  EXPECT_EQ(report("report")["width"], 1240 - 600) << "panels are twice as wide";
+  EXPECT_GT(num_colors(load_image8(path("large.png"))), 100u);
+}
+
+TEST_F(ToolView, ADragEndsWhereTheWindowLosesTheFocus) {
+  view_well("wait\ncommand " + path("before") + "\ndrag left 400 100 500 150 unfocus\nframes 3\ncommand " +
+            path("unfocused") + "\ndrag left 400 100 500 150\nframes 3\ncommand " + path("dragged") + "\n");
+  EXPECT_EQ(text_of(path("unfocused")), text_of(path("before")));
+  EXPECT_NE(text_of(path("dragged")), text_of(path("before")));
+}
+
 TEST_F(ToolView, KeysAndResetDoWhatTheyState) {
   view_well("wait\npicture " + path("before.png") + "\npress M\npress 7\npress S\nframes 3\nreport " + path("keys") +
             "\ndrag left 400 100 500 150\nreset\nframes 3\nwait\nreport " + path("reset") + "\npicture " +
@@ -205,6 +265,8 @@ TEST_F(ToolView, RefusesWhatItCannotDo) {
                  "'jump' is no command");
   expect_refused({"view", "builtin:sphere", "--script", write("bad2", "set bands eleven\n")}, path("bad2") + ":1",
                  "'eleven'");
+  expect_refused({"view", "builtin:sphere", "--script", write("bad3", "resize 0 0\n")}, path("bad3") + ":1",
+                 "'0': is no side of a window");
   expect_refused({"view", "nowhere.obj", "--screenshot", path("a.png")}, "nowhere.obj", "");
 }
 

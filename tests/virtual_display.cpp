@@ -26,6 +26,7 @@ std::string read_number(int pipe) {
 }  // namespace
 
 VirtualDisplay::VirtualDisplay(int width, int height) {
+  if (const char* display = ::getenv("DISPLAY")) before_ = display;
   std::array<int, 2> ends;
   if (::pipe(ends.data()) != 0) {
     problem_ = "no pipe";
@@ -54,7 +55,10 @@ VirtualDisplay::~VirtualDisplay() {
   if (pid_ <= 0) return;
   ::kill(pid_, SIGTERM);
   ::waitpid(pid_, nullptr, 0);
-  ::unsetenv("DISPLAY");
+  if (before_)
+    ::setenv("DISPLAY", before_->c_str(), 1);
+  else
+    ::unsetenv("DISPLAY");
 }
 
 }  // namespace shlight

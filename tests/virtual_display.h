@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <optional>
 #include <string>
 
 namespace shlight {
@@ -20,6 +21,7 @@ class VirtualDisplay {
  private:
   pid_t pid_ = -1;
   std::string problem_;
+  std::optional<std::string> before_;  // DISPLAY, which is restored
 };
 
 }  // namespace shlight

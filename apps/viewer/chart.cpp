@@ -87,6 +87,38 @@ void log_curves(const char* id, std::span<const Curve> curves, float height, int
   }
 }
 
+void time_curves(const char* id, std::span<const Curve> curves, std::size_t room, float height) {
+  const Area all = begin_chart(id, height);
+  const float line = ImGui::GetTextLineHeight();
+  const Area area = {{all.min.x + 2.2f * line, all.min.y + 0.5f * line},
+                     {all.max.x - 0.4f * line, all.max.y - 0.6f * line}};
+  double high = 10;
+  for (const Curve& curve : curves)
+    for (const double v : curve.values)
+      if (v > high) high = v;
+  // Two to five lines, a round number apart.
+  double step = std::pow(10, std::floor(std::log10(high / 2)));
+  for (const double factor : {2.5, 2.0}) step *= high / step > 5 ? factor : 1;
+  const auto y_of = [&](double v) { return area.max.y - area.height() * static_cast<float>(v / high); };
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (double v = 0; v <= high; v += step) {
+    draw.AddLine({area.min.x, y_of(v)}, {area.max.x, y_of(v)}, packed({1, 1, 1, 0.07f}));
+    const std::string text = fmt::format("{:g}", v);
+    write({area.min.x - ImGui::CalcTextSize(text.c_str()).x - 0.35f * line, y_of(v) - 0.5f * line}, kFaint, text);
+  }
+  for (const Curve& curve : curves) {
+    const std::size_t count = curve.values.size();
+    const auto at = [&](std::size_t i) {
+      const auto from_right =
+          static_cast<float>(count - 1 - i) / static_cast<float>(std::max<std::size_t>(room, 2) - 1);
+      return ImVec2{area.max.x - from_right * area.width(), y_of(curve.values[i])};
+    };
+    for (std::size_t i = 1; i < count; ++i)
+      if (!std::isnan(curve.values[i - 1]) && !std::isnan(curve.values[i]))
+        draw.AddLine(at(i - 1), at(i), packed(curve.color), 1.4f);
+  }
+}
+
 void bars(const char* id, const char* axis, std::span<const double> values, ImVec4 color, float height, int marked) {
   const Area all = begin_chart(id, height);
   if (values.empty()) return;

@@ -70,7 +70,7 @@ std::string render_command(const Settings& settings, const Look& look, int width
   const bool baked = !is_builtin_scene(settings.model) && is_baked_file(settings.model);
   const bool is_reflectance = method == Method::kReflectance || method == Method::kHybrid;
   if ((method == Method::kTransfer && !baked) || reference) text += transfer_options(look);
-  if (is_reflectance && baked) text += " --transfer cosine";  // the window shows it without the bake's shadows
+  if (is_reflectance && baked && look.transfer == TransferKind::kCosine) text += " --transfer cosine";
   if (method == Method::kTransfer && !baked && look.samples > 0 && look.transfer != TransferKind::kCosine)
     text += fmt::format(" --samples {}", look.samples);
   if (reference)

@@ -1,6 +1,11 @@
 #include "frame_times.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
 
 namespace shlight::viewer {
 namespace {
@@ -16,15 +21,39 @@ double quantile(std::vector<double> values, double q) {
 void FrameTimes::add(const Frame& frame) {
   ++count_;
   kept_.push_back(frame);
-  if (kept_.size() > kKept) kept_.erase(kept_.begin());
+  if (kept_.size() > most_) kept_.pop_front();
+}
+
+void FrameTimes::set_gpu(std::size_t number, double ms) {
+  const std::size_t first = count_ - kept_.size();
+  if (number >= first && number < count_) kept_[number - first].gpu_ms = ms;
 }
 
 FrameTimes::Summary FrameTimes::summary() const {
   if (kept_.empty()) return {};
-  std::vector<double> total, own;
-  for (const Frame& frame : kept_) total.push_back(frame.total_ms), own.push_back(frame.own_ms);
-  const auto of = [&](double q) { return Frame{quantile(total, q), quantile(own, q)}; };
+  std::vector<double> total, own, gpu;
+  for (const Frame& frame : kept_) {
+    total.push_back(frame.total_ms), own.push_back(frame.own_ms);
+    if (frame.gpu_ms) gpu.push_back(*frame.gpu_ms);
+  }
+  const auto of = [&](double q) {
+    return Frame{quantile(total, q), quantile(own, q), gpu.empty() ? std::nullopt : std::optional(quantile(gpu, q))};
+  };
   return {of(0.5), of(0.99), of(1)};
+}
+
+// From proc(5): the 22nd field of stat is when the process started, in ticks since the machine did; the first of uptime
+// is now, in seconds.
+double process_age_ms() {
+  constexpr int kStartField = 22;
+  std::ifstream stat("/proc/self/stat"), uptime("/proc/uptime");
+  double now = 0, start = 0;
+  std::string field;
+  // The second field is the program's name between brackets, in which there may be anything.
+  std::getline(stat, field, ')');
+  for (int i = 3; i < kStartField; ++i) stat >> field;
+  if (!(stat >> start) || !(uptime >> now)) return 0;
+  return 1000 * (now - start / static_cast<double>(::sysconf(_SC_CLK_TCK)));
 }
 
 }  // namespace shlight::viewer

@@ -2,10 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+#include <thread>
+
 #include "shlight/light/project_image.h"
 #include "shlight/scene/load_scene.h"
 
 namespace shlight::viewer {
+
+const ShadowRatio& ModelAsset::shadow_ratio() const {
+  std::call_once(has_ratio_, [this] { ratio_.emplace(content.scene, content.transfer); });
+  return *ratio_;
+}
 
 Model load_model(const std::string& name, int serial) {
   auto model = std::make_shared<ModelAsset>();
@@ -33,6 +41,7 @@ void load_lighting(const std::string& name, int serial, const Task<Lighting>::Pu
     light->name = name;
     light->key = fmt::format("{} {} {}", serial, name, final);
     light->loaded = loaded;
+    light->behind = make_half_picture(drawn.background, light_scale(drawn.coefficients).unit);
     light->drawn = std::move(drawn);
     light->final = final;
     publish(light);
@@ -42,6 +51,13 @@ void load_lighting(const std::string& name, int serial, const Task<Lighting>::Pu
   if (loaded->info.kind == LightInfo::Kind::kBuiltin || loaded->info.kind == LightInfo::Kind::kFormula) {
     const Image quick = loaded->light->lat_long(kQuickWidth, worker_threads());
     publish_light({project_image({quick, Layout::kLatLong}, kMaxRenderBands, worker_threads()), quick}, false);
+    // That is drawn now: for a moment, all processors are for it.
+    be_patient();
+    constexpr int kMoments = 30;
+    for (int i = 0; i < kMoments; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      report_progress(progress, 0.3);
+    }
   }
   publish_light(make_render_light(*loaded->light, kMaxRenderBands, kFullWidth, worker_threads()), true);
 }

@@ -81,6 +81,13 @@ void transfer(Look& look, const Side& side, bool is_baked) {
     ImGui::TextDisabled("error of the bake %.2g %%", 100 * side.transfer()->estimated_error);
 }
 
+// Of what is drawn by tables: those of the file's transfer, or none.
+void baked_shadows(Look& look, TransferKind baked) {
+  int cast = look.transfer == TransferKind::kCosine ? 0 : 1;
+  named("shadows");
+  if (switches("baked shadows", cast, {"none", "as baked"})) look.transfer = cast == 0 ? TransferKind::kCosine : baked;
+}
+
 void shown(Look& look, bool knows_visibility) {
   std::vector<std::string> words = {"lit", "normals", "one band"};
   if (knows_visibility) words.push_back("visibility");
@@ -137,6 +144,7 @@ void look_panel(Studio& studio) {
   const bool is_baked = studio.ready() && studio.subject().model->is_baked;
   if (look.method == Method::kTransfer || reference || look.show == Show::kVisibility)
     transfer(look, studio.side(s.side), is_baked && !reference);
+  if (reflects && is_baked) baked_shadows(look, studio.subject().model->content.transfer.kind);
   if (reflects || reference) material(look);
   if (reflects) {
     int shade = static_cast<int>(look.shade);

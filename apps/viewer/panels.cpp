@@ -18,18 +18,6 @@ namespace {
 constexpr float kControlsWidth = 300, kInsightWidth = 336;  // at scale 1
 constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
-constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
-                                      ImGuiWindowFlags_NoFocusOnAppearing;
-
-void begin_overlay(const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags more = 0) {
-  ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
-  ImGui::SetNextWindowBgAlpha(0.94f);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 8);
-  ImGui::Begin(name, nullptr, kOverlay | more);
-  ImGui::PopStyleVar();
-}
-
 void keys_overlay(const Layout& layout) {
   static constexpr std::array<std::array<const char*, 2>, 16> kKeys = {{
       {"left drag", "turn the camera"},
@@ -80,53 +68,6 @@ void messages_overlay(const Studio& studio, const Layout& layout) {
   ImGui::End();
 }
 
-std::string bytes_text(std::size_t bytes) {
-  if (bytes < 10'000) return fmt::format("{} bytes", bytes);
-  return bytes < 10'000'000 ? fmt::format("{:.0f} kB", 1e-3 * static_cast<double>(bytes))
-                            : fmt::format("{:.0f} MB", 1e-6 * static_cast<double>(bytes));
-}
-
-void timing_overlay(const Studio& studio, const FrameTimes& times, const Layout& layout) {
-  begin_overlay("timing", {layout.left + layout.picture_width() - 16 * layout.scale, 16 * layout.scale}, {1, 0});
-  ImGui::PushFont(heading_font());
-  ImGui::TextUnformatted("Frames");
-  ImGui::PopFont();
-  const FrameTimes::Summary s = times.summary();
-  std::vector<float> totals;
-  for (const FrameTimes::Frame& frame : times.kept()) totals.push_back(static_cast<float>(frame.total_ms));
-  ImGui::PushStyleColor(ImGuiCol_FrameBg, ImVec4{0, 0, 0, 0.25f});
-  const float top = static_cast<float>(std::max(1.15 * s.max.total_ms, 20.0));
-  ImGui::PlotLines("##frames", totals.data(), static_cast<int>(totals.size()), 0, nullptr, 0, top,
-                   {236 * layout.scale, 64 * layout.scale});
-  ImGui::PopStyleColor();
-  if (ImGui::BeginTable("times", 4, ImGuiTableFlags_SizingStretchProp)) {
-    ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.4f);
-    for (int i = 0; i < 3; ++i) ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1);
-    const auto row = [](const char* name, double median, double p99, double max) {
-      ImGui::TableNextColumn();
-      ImGui::TextDisabled("%s", name);
-      for (const double value : {median, p99, max}) {
-        ImGui::TableNextColumn();
-        ImGui::Text("%.2f", value);
-      }
-    };
-    for (const char* title : {"ms", "median", "99 %", "most"}) {
-      ImGui::TableNextColumn();
-      ImGui::TextDisabled("%s", title);
-    }
-    row("frame", s.median.total_ms, s.p99.total_ms, s.max.total_ms);
-    row("not drawn", s.median.own_ms, s.p99.own_ms, s.max.own_ms);
-    ImGui::EndTable();
-  }
-  if (studio.ready()) {
-    ImGui::TextDisabled("%zu triangles, %zu vertices", studio.subject().model->triangles,
-                        studio.subject().model->vertices);
-    ImGui::TextDisabled("%s for the method, %d x %d pixels",
-                        bytes_text(studio.side(studio.settings.side).bytes()).c_str(), studio.width(), studio.height());
-  }
-  ImGui::End();
-}
-
 void controls(Studio& studio, const Layout& layout, Wishes& wishes) {
   ImGui::SetNextWindowPos({0, 0});
   ImGui::SetNextWindowSize({layout.left, layout.height});
@@ -143,6 +84,17 @@ void controls(Studio& studio, const Layout& layout, Wishes& wishes) {
 }
 
 }  // namespace
+
+void begin_overlay(const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags more) {
+  constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                                        ImGuiWindowFlags_NoFocusOnAppearing;
+  ImGui::SetNextWindowPos(at, ImGuiCond_Always, pivot);
+  ImGui::SetNextWindowBgAlpha(0.94f);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 8);
+  ImGui::Begin(name, nullptr, kOverlay | more);
+  ImGui::PopStyleVar();
+}
 
 Layout make_layout(const Settings& settings, int width, int height, double scale) {
   Layout layout;
@@ -166,7 +118,7 @@ void draw_panels(Studio& studio, Insight& insight, const FrameTimes& times, cons
     insight_panel(studio, insight, layout);
     ImGui::End();
   }
-  if (studio.settings.timing) timing_overlay(studio, times, layout);
+  if (studio.settings.timing) timing_panel(studio, times, layout);
   if (studio.settings.keys) keys_overlay(layout);
   messages_overlay(studio, layout);
 }

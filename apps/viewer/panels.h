@@ -1,5 +1,10 @@
 #pragma once
 
+#include <imgui.h>
+
+#include <string>
+#include <vector>
+
 #include "frame_times.h"
 #include "insight.h"
 #include "studio.h"
@@ -31,6 +36,7 @@ void picture_panel(Studio& studio);
 void wish_buttons(Studio& studio, Wishes& wishes);  // what can be taken along
 float wish_buttons_height();
 void insight_panel(Studio& studio, Insight& insight, const Layout& layout);
+void timing_panel(const Studio& studio, const FrameTimes& times, const Layout& layout);
 void viewport(Studio& studio, const Layout& layout);
 
 // All of them, with the window's own: keys, messages, frame times.
@@ -38,6 +44,8 @@ void draw_panels(Studio& studio, Insight& insight, const FrameTimes& times, cons
 
 // --- what panels are made of
 
+// A small window on top of the picture, with its corner or middle, as `pivot` says, at a place; ImGui::End() ends it.
+void begin_overlay(const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags more = 0);
 // A heading that folds what is below it; false where that is folded away.
 bool section(const char* title, bool open = true);
 // A name at the left, and room for a control at the right.

@@ -1,9 +1,13 @@
 #include "script.h"
 
+#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
 #include <sstream>
 #include <string_view>
 
@@ -21,7 +25,7 @@ struct Command {
 constexpr std::array kCommands = {
     Command{"set", 2, 99, "set NAME VALUE"},
     Command{"open", 1, 99, "open FILE"},
-    Command{"drag", 5, 5, "drag left|middle|right X0 Y0 X1 Y1"},
+    Command{"drag", 5, 6, "drag left|middle|right X0 Y0 X1 Y1 [unfocus]"},
     Command{"click", 2, 2, "click X Y"},
     Command{"press", 1, 1, "press KEY"},
     Command{"wheel", 1, 1, "wheel STEPS"},
@@ -68,6 +72,28 @@ Script::Script(const std::filesystem::path& file) : name_(file.string()) {
       throw Error(where, fmt::format("'{}' with {} words", command->name, count), command->use);
     lines_.push_back(std::move(line));
   }
+}
+
+double to_number(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value) || std::abs(value) > 1e6)
+    throw Error("'" + text + "'", "is no number", "a number from -1000000 to 1000000");
+  return value;
+}
+
+int to_pixels(const std::string& text) {
+  const double value = to_number(text);
+  if (value < 1 || value > 16384 || value != std::floor(value))
+    throw Error("'" + text + "'", "is no side of a window", "a whole number from 1 to 16384");
+  return static_cast<int>(value);
+}
+
+int to_key(const std::string& name) {
+  if (name == "Tab") return GLFW_KEY_TAB;
+  if (name.size() == 1 && std::isalnum(static_cast<unsigned char>(name[0])))
+    return std::toupper(static_cast<unsigned char>(name[0]));  // GLFW's names of keys are their capital letters
+  throw Error("'" + name + "'", "is no key", "a letter, a digit or Tab");
 }
 
 std::string Script::where() const {

@@ -33,4 +33,9 @@ class Script {
   std::deque<ScriptLine> lines_;
 };
 
+// What words of a line stand for: a number, a side of the window in pixels, GLFW's number of a key. Throw Error.
+double to_number(const std::string& text);
+int to_pixels(const std::string& text);
+int to_key(const std::string& name);
+
 }  // namespace shlight::viewer

@@ -38,5 +38,15 @@ TEST_F(ScriptTest, RefusesWhatIsNoCommandBeforeAnythingIsDone) {
   EXPECT_THROW(Script(folder_ / "none"), Error);
 }
 
+TEST(Script, WordsStandForNumbersSizesAndKeys) {
+  EXPECT_EQ(to_number("-2.5"), -2.5);
+  EXPECT_EQ(to_pixels("640"), 640);
+  EXPECT_EQ(to_key("q"), to_key("Q"));
+  EXPECT_NE(to_key("Tab"), to_key("T"));
+  for (const char* wrong : {"", "2x", "nan", "1e9"}) EXPECT_THROW(to_number(wrong), Error) << wrong;
+  for (const char* wrong : {"0", "-3", "1.5", "20000"}) EXPECT_THROW(to_pixels(wrong), Error) << wrong;
+  for (const char* wrong : {"", "F1", "!"}) EXPECT_THROW(to_key(wrong), Error) << wrong;
+}
+
 }  // namespace
 }  // namespace shlight::viewer

@@ -16,7 +16,8 @@ std::string drawing_key(const Settings& s, const Look& look) {
   std::string key = fmt::format("{} {} {} {} {} {} {} {} {} {} {}", s.camera.azimuth, s.camera.elevation, s.camera.zoom,
                                 s.camera.target.x, s.camera.target.y, s.camera.target.z, s.exposure,
                                 static_cast<int>(s.curve), s.background, look.window, look.mark_negative);
-  key += fmt::format(" {} {} {}", static_cast<int>(look.method), look.degree, static_cast<int>(look.show));
+  key += fmt::format(" {} {} {} {}", static_cast<int>(look.method), static_cast<int>(look.transfer), look.degree,
+                     static_cast<int>(look.show));
   for (const Vec3d& row : s.rotate_light.rows) key += fmt::format(" {} {} {}", row.x, row.y, row.z);
   return key;
 }
@@ -24,6 +25,11 @@ std::string drawing_key(const Settings& s, const Look& look) {
 }  // namespace
 
 Studio::Studio(const Settings& start, bool remember) : settings(start), initial_(start), recent_(remember) {}
+
+void Studio::load() {
+  take_model();
+  take_light();
+}
 
 void Studio::open(const std::string& path) {
   if (is_model_file(path) || is_baked_file(path))
@@ -95,7 +101,7 @@ void Studio::take_light() {
 
 // Once both sides stand still: comparing takes a while.
 void Studio::request_difference() {
-  if (coarseness_ > 1) return;
+  if (coarseness_ > 1 || drawing()) return;
   for (const int which : {0, 1})
     if (!sides_[static_cast<std::size_t>(which)].settled(settings.looks[static_cast<std::size_t>(which)])) return;
   // A reference that converges is compared at each doubling of its paths.
@@ -107,46 +113,70 @@ void Studio::request_difference() {
   const std::string key =
       fmt::format("{} {} {}", drawn_key_, doubling(sides_[0].traced_samples()), doubling(sides_[1].traced_samples()));
   if (key == difference_.wanted()) return;
-  const Image a = sides_[0].read_radiance(), b = sides_[1].read_radiance();
+  const Image &a = sides_[0].read_radiance(), &b = sides_[1].read_radiance();
   if (a.width == b.width && a.height == b.height) difference_.request(key, a, b);
 }
 
-void Studio::draw_side(int which) {
+void Studio::begin_picture(int which) {
   const auto i = static_cast<std::size_t>(which);
   stale_[i] = false;
   drawn_coarseness_[i] = coarseness_;
   try {
-    const double ms = sides_[i].draw(subject_, settings, settings.looks[i], coarseness_);
-    if (ms > 0) cost_ms_[coarseness_] = ms;
+    sides_[i].begin_picture(subject_, settings, settings.looks[i], coarseness_);
   } catch (const Error& error) {
     say(error.what(), true);
   }
 }
 
+bool Studio::draw_side(int which, double ms) {
+  Side& side = sides_[static_cast<std::size_t>(which)];
+  if (!side.draw(ms)) return false;
+  cost_ms_[side.cost().coarseness] = side.cost().ms;
+  return true;
+}
+
+bool Studio::drawing() const {
+  if (!ready()) return false;
+  for (const int which : {0, 1})
+    if (settings.shows(which) &&
+        (side(which).drawing() || side(which).uploading() || stale_[static_cast<std::size_t>(which)]))
+      return true;
+  return false;
+}
+
+// What a picture is expected to take: what it took, or at most as much more or less as it has more or fewer pixels.
+double Studio::expected_ms(int coarseness) const {
+  if (const auto known = cost_ms_.find(coarseness); known != cost_ms_.end()) return known->second;
+  if (cost_ms_.empty()) return 1e9;  // the first one may take long
+  const auto& [nearest, ms] = *std::ranges::min_element(cost_ms_, {}, [&](const auto& cost) {
+    return std::max(cost.first, coarseness) / std::min(cost.first, coarseness);
+  });
+  const double ratio = static_cast<double>(nearest) / coarseness;
+  return ratio * ratio * ms;
+}
+
 int Studio::choose_coarseness(bool moving) const {
   constexpr double kQuick = 40;  // ms
   constexpr int kCoarsest = 4;
-  if (!moving) return 1;
   int coarseness = 1;
-  double ms = 0;
-  for (; coarseness < kCoarsest; coarseness *= 2) {
-    const auto known = cost_ms_.find(coarseness);
-    ms = known != cost_ms_.end() ? known->second : 0.25 * ms;  // a quarter of the pixels
-    if (ms <= kQuick) break;
-  }
+  while (moving && coarseness < kCoarsest && expected_ms(coarseness) > kQuick) coarseness *= 2;
   return coarseness;
 }
 
+// For who needs the picture now.
 void Studio::draw_finely() {
-  if (coarseness_ == 1) return;
+  if (coarseness_ == 1 && !drawing()) return;
+  constexpr double kAll = 1e9;  // ms
   coarseness_ = 1;
-  for (const int which : {0, 1})
-    if (settings.shows(which)) draw_side(which);
+  for (const int which : {0, 1}) {
+    if (!settings.shows(which)) continue;
+    begin_picture(which);
+    draw_side(which, kAll);
+  }
 }
 
-bool Studio::update(int width, int height) {
-  take_model();
-  take_light();
+bool Studio::update(int width, int height, double ms) {
+  load();
   const auto now = std::chrono::steady_clock::now();
   bool changed = std::erase_if(messages_, [now](const Message& message) { return message.until < now; }) > 0;
   if (!ready() || width < 1 || height < 1) return changed;
@@ -174,12 +204,19 @@ bool Studio::update(int width, int height) {
   if (moved[0] || moved[1]) moved_at_ = now;
   const bool moving = std::chrono::duration<double>(now - moved_at_).count() < kStill;
   coarseness_ = choose_coarseness(moving);
+  // What takes long is drawn over several frames, so that the window goes on meanwhile. A picture that was begun is
+  // completed even if it is not of the newest moment, or there would be none while something moves; but not a fine one
+  // where a coarse one does.
+  const bool both = settings.compare != Compare::kOne && sides_[0].drawing() && sides_[1].drawing();
   for (const int which : {0, 1}) {
     const auto i = static_cast<std::size_t>(which);
-    const bool refined = drawn_coarseness_[i] != coarseness_;
-    if (!settings.shows(which) || !(stale_[i] || moved[i] || resized || refined)) continue;
-    draw_side(which);
-    changed = true;
+    if (!settings.shows(which)) continue;
+    if (moved[i] || resized || drawn_coarseness_[i] != coarseness_) stale_[i] = true;
+    if (stale_[i] && (!sides_[i].drawing() || sides_[i].drawing_coarseness() < coarseness_)) {
+      begin_picture(which);
+      changed = true;
+    }
+    changed = draw_side(which, both ? ms / 2 : ms) || changed;
   }
   drawn_key_ = key;
   if (settings.compare == Compare::kDifference)
@@ -189,8 +226,15 @@ bool Studio::update(int width, int height) {
   return difference_.update() || changed;
 }
 
+bool Studio::has_picture() const {
+  for (const int which : {0, 1})
+    if (settings.shows(which) && !side(which).has_picture()) return false;
+  return true;
+}
+
 bool Studio::settled(int samples) const {
-  if (!ready() || model_task_.busy() || light_task_.busy() || difference_.busy() || coarseness_ > 1) return false;
+  if (!ready() || model_task_.busy() || light_task_.busy() || difference_.busy() || coarseness_ > 1 || drawing())
+    return false;
   for (const int which : {0, 1}) {
     if (!settings.shows(which)) continue;
     const Look& look = settings.looks[static_cast<std::size_t>(which)];
@@ -201,15 +245,13 @@ bool Studio::settled(int samples) const {
 }
 
 bool Studio::busy() const {
-  return coarseness_ > 1 || model_task_.busy() || light_task_.busy() || difference_.busy() ||
+  return coarseness_ > 1 || drawing() || model_task_.busy() || light_task_.busy() || difference_.busy() ||
          !side(0).activity().empty() || !side(1).activity().empty();
 }
 
 Image8 Studio::picture() {
   draw_finely();
-  for (const int which : {0, 1})
-    if (settings.shows(which) && !side(which).has_picture())
-      throw Error("picture", "is not there yet", "a moment later");
+  if (!has_picture()) throw Error("picture", "is not there yet", "a moment later");
   if (settings.compare == Compare::kDifference && difference_fits()) return difference_.result()->map;
   Image8 picture = side(settings.side).read_picture();
   if (settings.compare != Compare::kSplit) return picture;

@@ -22,19 +22,25 @@ class Studio {
 
   Settings settings;
 
+  // Begins to load what update() is going to ask for. Needs no context.
+  void load();
   // Opens a file as what it seems to be: a model, a baked file or a light.
   void open(const std::string& path);
   // Everything but model and light as it was in the beginning.
   void reset();
 
   // Once a frame: takes in what has been computed, asks for what the settings need, and draws where anything has
-  // changed. The picture has this size. True where there is something new to see.
-  bool update(int width, int height);
+  // changed, for about `ms`. The picture has this size. True where there is something new to see.
+  bool update(int width, int height, double ms);
 
   bool ready() const { return subject_.model && subject_.light; }
+  // There is something to see of all that is shown.
+  bool has_picture() const;
   // Nothing is being loaded or computed that the settings ask for; a reference counts as done with this many paths.
   bool settled(int samples) const;
   bool busy() const;
+  // A picture is on its way, and is drawn a part in each frame.
+  bool drawing() const;
 
   const Subject& subject() const { return subject_; }
   Side& side(int which) { return sides_[static_cast<std::size_t>(which)]; }
@@ -67,7 +73,9 @@ class Studio {
   void take_model();
   void take_light();
   void request_difference();
-  void draw_side(int which);
+  void begin_picture(int which);
+  bool draw_side(int which, double ms);
+  double expected_ms(int coarseness) const;
   int choose_coarseness(bool moving) const;
   void draw_finely();
 

@@ -23,6 +23,12 @@ inline int worker_threads() {
   return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()) + 1) / 2;
 }
 
+// From now on, the calling thread leaves processors to the window and to what draws it where those want them.
+inline void be_patient() {
+  constexpr int kNice = 5;
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);
+}
+
 // Long work on a thread of its own, one at a time, of which only the newest request counts: a frame never waits for it.
 // Work is known by a key that says all it depends on.
 template <class Result>
@@ -98,8 +104,7 @@ class Task {
     job_ = std::make_unique<Job>();
     job_->key = wanted_;
     job_->thread = std::thread([job = job_.get(), work = std::exchange(next_, {}), patient = patient_] {
-      constexpr int kNice = 5;
-      if (patient) ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);
+      if (patient) be_patient();
       try {
         work(
             [job](Result result) {

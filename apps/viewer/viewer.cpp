@@ -5,12 +5,13 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "command_line.h"
 #include "frame_times.h"
@@ -20,9 +21,11 @@
 #include "script.h"
 #include "shlight/core/error.h"
 #include "shlight/core/file.h"
+#include "shlight/core/peak_memory.h"
 #include "shlight/image/image_io.h"
 #include "shlight/light/coefficient_file.h"
 #include "shlight/render/context.h"
+#include "shlight/render/gpu_timer.h"
 #include "studio.h"
 #include "window.h"
 
@@ -31,17 +34,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::size_t kReportedFrames = 20'000;  // since the last report
+
 double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
 class Viewer {
  public:
-  explicit Viewer(const ViewerParams& params)
-      : params_(params),
-        script_(params.script.empty() ? Script() : Script(params.script)),
-        window_(params.width, params.height, params.scale),
-        studio_(params.settings, params.script.empty() && params.screenshot.empty()) {}
+  Viewer(const ViewerParams& params, Script script, Window& window, std::unique_ptr<Studio> studio)
+      : params_(params), script_(std::move(script)), window_(window), owned_studio_(std::move(studio)) {}
 
   void run() {
     while (!window_.closed() && !(params_.asked_to_stop && params_.asked_to_stop())) {
@@ -55,23 +57,28 @@ class Viewer {
       // While a script only waits, processors are left to what it waits for.
       const bool waits = scripted && (script_.ended() || script_.line().words[0] == "wait");
       const bool busy = scripted || studio_.busy() || insight_.busy();
-      const double wait = awake_ > 0 || (scripted && !waits) ? 0 : busy ? 0.03 : 0.25;
+      const bool seen = window_.width() > 0 && window_.height() > 0;  // else it is minimised
+      const double wait = !seen                                                     ? 0.1
+                          : !studio_.ready()                                        ? 0.004
+                          : awake_ > 0 || studio_.drawing() || (scripted && !waits) ? 0
+                          : busy                                                    ? 0.06
+                                                                                    : 0.25;
       window_.poll(wait);
       for (const std::string& path : window_.take_dropped()) studio_.open(path);
       if (window_.take_events()) awake_ = kAfterEvent;
-      frame();
+      if (seen) frame();
     }
   }
 
  private:
   void frame() {
     const int width = window_.width(), height = window_.height();
-    if (width < 1 || height < 1) return;  // minimised
     const auto start = Clock::now();
+    gpu_timer_.begin(times_.count());
     const Layout layout = make_layout(studio_.settings, width, height, window_.scale());
     const auto picture_width = static_cast<int>(std::max(layout.picture_width(), 1.0f));
     const auto before_update = Clock::now();
-    bool changed = studio_.update(picture_width, height);
+    bool changed = studio_.update(picture_width, height, drawing_ms());
     if (layout.right > 0 && studio_.ready()) {
       const auto balloon = static_cast<int>(layout.right - 28 * layout.scale);
       changed = insight_.update(studio_.subject(), studio_.settings.look(), studio_.settings.camera, balloon,
@@ -80,6 +87,7 @@ class Viewer {
     }
     set_title();
     const auto before_panels = Clock::now();
+    const double update_ms = std::chrono::duration<double, std::milli>(before_panels - before_update).count();
     window_.begin_frame();
     point_out(layout);
     keys();
@@ -90,12 +98,27 @@ class Viewer {
     const double own =
         std::chrono::duration<double, std::milli>(before_update - start).count() + ms_since(before_panels);
     window_.end_frame();
+    gpu_timer_.end();
     screenshot_now();
     window_.show();
     grant_wishes();
-    if (studio_.ready() && first_picture_ms_ == 0) first_picture_ms_ = ms_since(started_);
-    times_.add({ms_since(start), own});
+    if (studio_.has_picture() && !first_picture_ms_) first_picture_ms_ = process_age_ms();
+    // Forgets slowly that it once took longer.
+    constexpr double kForget = 0.1;
+    beside_ms_ = std::max(ms_since(start) - update_ms, (1 - kForget) * beside_ms_);
+    const FrameTimes::Frame times = {ms_since(start), own, {}};
+    times_.add(times), reported_.add(times);
+    while (const auto gpu = gpu_timer_.take())
+      times_.set_gpu(gpu->number, gpu->ms), reported_.set_gpu(gpu->number, gpu->ms);
     awake_ = changed ? 2 : std::max(awake_ - 1, 0);
+  }
+
+  // How long this frame may draw pictures: what is left of a frame's time after all else; where that is not much, so
+  // long that pictures do not take several times as long as they have to. The first one is to be there soon.
+  double drawing_ms() const {
+    constexpr double kFrame = 36, kMost = 24, kFirst = 150, kShare = 0.5;
+    if (!first_picture_ms_) return kFirst;
+    return std::max(std::min(kFrame - beside_ms_, kMost), kShare * beside_ms_);
   }
 
   void set_title() {
@@ -210,14 +233,6 @@ class Viewer {
 
   // --- scripts
 
-  static double number(const std::string& text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value) || std::abs(value) > 1e6)
-      throw Error("'" + text + "'", "is no number", "a number from -1000000 to 1000000");
-    return value;
-  }
-
   // The next line, or what is left of it; false where the window is to close.
   bool run_script() {
     if (!script_.ended()) {
@@ -243,14 +258,14 @@ class Viewer {
     const std::string& what = line.words[0];
     if (!wanted_screenshot_.empty()) return false;
     if (what == "wait") {
-      const int paths = line.words.size() > 1 ? static_cast<int>(number(line.words[1])) : 1;
+      const int paths = line.words.size() > 1 ? static_cast<int>(to_number(line.words[1])) : 1;
       const bool quiet = studio_.settled(paths) && !insight_.busy();
       return quiet ? ++progress_ > 3 : (progress_ = 0, false);
     }
-    if (what == "frames") return ++progress_ > static_cast<int>(number(line.words[1]));
+    if (what == "frames") return ++progress_ > static_cast<int>(to_number(line.words[1]));
     if (what == "spin") {
       orbit(studio_.settings, 0.01, 0);
-      return ++progress_ >= static_cast<int>(number(line.words[1]));
+      return ++progress_ >= static_cast<int>(to_number(line.words[1]));
     }
     if (what == "drag") return drag(line);
     if (what == "click") return click(line);
@@ -271,11 +286,11 @@ class Viewer {
     } else if (what == "open") {
       studio_.open(line.rest);
     } else if (what == "press") {
-      pressed_ = key_of(line.words[1]);
+      pressed_ = to_key(line.words[1]);
     } else if (what == "wheel") {
-      zoom(s, number(line.words[1]));
+      zoom(s, to_number(line.words[1]));
     } else if (what == "resize") {
-      window_.resize(static_cast<int>(number(line.words[1])), static_cast<int>(number(line.words[2])));
+      window_.resize(to_pixels(line.words[1]), to_pixels(line.words[2]));
     } else if (what == "cancel") {
       studio_.side(s.side).cancel();
     } else if (what == "reset") {
@@ -291,13 +306,6 @@ class Viewer {
     }
   }
 
-  static int key_of(const std::string& name) {
-    if (name == "Tab") return GLFW_KEY_TAB;
-    if (name.size() == 1 && std::isalnum(static_cast<unsigned char>(name[0])))
-      return std::toupper(static_cast<unsigned char>(name[0]));  // GLFW's names of keys are their capital letters
-    throw Error("'" + name + "'", "is no key", "a letter, a digit or Tab");
-  }
-
   // Presses, moves in steps, lets go.
   bool drag(const ScriptLine& line) {
     constexpr int kSteps = 6;
@@ -305,15 +313,16 @@ class Viewer {
     const auto button = kButtons.find(line.words[1]);
     if (button == kButtons.end()) throw Error("'" + line.words[1] + "'", "is no button", "left, middle, right");
     const double t = std::clamp((progress_ - 2.0) / kSteps, 0.0, 1.0);
+    if (line.words.size() > 6 && progress_ == 2) window_.lose_focus();
     const auto at = [&](std::size_t i) {
-      return static_cast<float>((1 - t) * number(line.words[i]) + t * number(line.words[i + 2]));
+      return static_cast<float>((1 - t) * to_number(line.words[i]) + t * to_number(line.words[i + 2]));
     };
     window_.point(at(2), at(3), progress_ == 0 || progress_ > kSteps + 2 ? -1 : button->second);
     return ++progress_ > kSteps + 3;
   }
 
   bool click(const ScriptLine& line) {
-    window_.point(static_cast<float>(number(line.words[1])), static_cast<float>(number(line.words[2])),
+    window_.point(static_cast<float>(to_number(line.words[1])), static_cast<float>(to_number(line.words[2])),
                   progress_ == 1 ? 0 : -1);
     return ++progress_ > 3;
   }
@@ -327,13 +336,19 @@ class Viewer {
 
   // What a test or a person may want to know, as JSON.
   std::string report() {
-    const FrameTimes::Summary times = times_.summary();
+    const FrameTimes::Summary times = reported_.summary();
+    const auto three = [&](auto part) -> nlohmann::ordered_json {
+      return {{"median", part(times.median)}, {"p99", part(times.p99)}, {"max", part(times.max)}};
+    };
     const Side& side = studio_.side(studio_.settings.side);
     nlohmann::ordered_json json = {
-        {"first_picture_ms", first_picture_ms_},
+        {"first_picture_ms", first_picture_ms_.value_or(0)},
         {"frames", times_.count()},
-        {"frame_ms", {{"median", times.median.total_ms}, {"p99", times.p99.total_ms}, {"max", times.max.total_ms}}},
-        {"own_ms", {{"median", times.median.own_ms}, {"p99", times.p99.own_ms}, {"max", times.max.own_ms}}},
+        {"frames_since_report", reported_.kept().size()},
+        {"frame_ms", three([](const FrameTimes::Frame& f) { return f.total_ms; })},
+        {"own_ms", three([](const FrameTimes::Frame& f) { return f.own_ms; })},
+        {"gpu_ms", times.max.gpu_ms ? three([](const FrameTimes::Frame& f) { return *f.gpu_ms; }) : nullptr},
+        {"resident_bytes", resident_memory()},
         {"width", studio_.width()},
         {"height", studio_.height()},
         {"scale", window_.scale()},
@@ -346,17 +361,19 @@ class Viewer {
         {"paths", side.traced_samples()},
         {"last_error", studio_.last_error()},
         {"gl_renderer", gl_renderer()}};
-    times_.clear();
+    reported_.clear();
     return json.dump(2) + "\n";
   }
 
   ViewerParams params_;
-  Clock::time_point started_ = Clock::now();
   Script script_;
-  Window window_;  // before all that draws in its context
-  Studio studio_;
+  Window& window_;
+  std::unique_ptr<Studio> owned_studio_;
+  Studio& studio_ = *owned_studio_;
   Insight insight_;
-  FrameTimes times_;
+  GpuTimer gpu_timer_;
+  FrameTimes times_ = FrameTimes(kShownFrames, gpu_timer_.available());
+  FrameTimes reported_ = FrameTimes(kReportedFrames, gpu_timer_.available());
   Wishes wishes_;
   std::map<int, std::function<void()>> key_actions_;
   int pressed_ = 0;   // by a script
@@ -365,13 +382,20 @@ class Viewer {
   std::filesystem::path wanted_screenshot_;
   bool taken_ = false;
   int awake_ = 3;  // frames to draw at once
-  double first_picture_ms_ = 0;
+  std::optional<double> first_picture_ms_;
+  double beside_ms_ = 0;  // of a frame, beside pictures
 };
 
 }  // namespace
 
 void run_viewer(const ViewerParams& params) {
-  Viewer(params).run();
+  Script script = params.script.empty() ? Script() : Script(params.script);
+  Window::require_display();
+  // What is shown is loaded while the window opens.
+  auto studio = std::make_unique<Studio>(params.settings, params.script.empty() && params.screenshot.empty());
+  studio->load();
+  Window window(params.width, params.height, params.scale);
+  Viewer(params, std::move(script), window, std::move(studio)).run();
 }
 
 }  // namespace shlight::viewer

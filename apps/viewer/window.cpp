@@ -47,8 +47,12 @@ Window* of(GLFWwindow* window) {
 
 }  // namespace
 
-Window::Window(int width, int height, double scale) {
+void Window::require_display() {
   if (!glfwInit()) throw_no_window();
+}
+
+Window::Window(int width, int height, double scale) {
+  require_display();
   window_ = open_window(width, height);
   if (!window_) throw_no_window();
   glfwMakeContextCurrent(window_);
@@ -64,6 +68,10 @@ Window::Window(int width, int height, double scale) {
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int, int, int) { of(window)->events_ = true; });
   glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double) { of(window)->events_ = true; });
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int, int, int, int) { of(window)->events_ = true; });
+
+  glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int focused) {
+    if (!focused) of(window)->lose_focus();
+  });
 
   float scale_x = 1, scale_y = 1;
   glfwGetWindowContentScale(window_, &scale_x, &scale_y);
@@ -132,6 +140,11 @@ void Window::point(float x, float y, int button) {
   x_ = x, y_ = y, button_ = button;
 }
 
+void Window::lose_focus() {
+  held_ = true;
+  events_ = true;
+}
+
 void Window::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
@@ -145,6 +158,8 @@ void Window::begin_frame() {
     io.MousePos = {x_, y_};
     for (int i = 0; i < 3; ++i) io.MouseDown[i] = i == button_;
   }
+  held_ = held_ && std::ranges::any_of(io.MouseDown, [](bool down) { return down; });
+  if (held_) std::ranges::fill(io.MouseDown, false);
   ImGui::NewFrame();
 }
 

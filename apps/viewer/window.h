@@ -14,6 +14,8 @@ class Window {
   // Sizes are in the units of the display; `scale` enlarges text and controls, 0 as the display wants it. Throws Error
   // where there is no display or no such context.
   Window(int width, int height, double scale);
+  // The same Error where there is no display, before there is a window.
+  static void require_display();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
   ~Window();
@@ -41,6 +43,8 @@ class Window {
 
   // A pointer that a script moves, in the place of the person's; button 0 to 2, or -1 for none.
   void point(float x, float y, int button);
+  // Other windows have the person's attention now: what is held is let go, until it is pressed anew.
+  void lose_focus();
 
  private:
   GLFWwindow* window_ = nullptr;
@@ -50,6 +54,7 @@ class Window {
   bool pointed_ = false;
   float x_ = 0, y_ = 0;
   int button_ = -1;
+  bool held_ = false;  // since before the window lost the focus
 };
 
 }  // namespace shlight::viewer

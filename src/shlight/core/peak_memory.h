@@ -8,6 +8,9 @@ namespace shlight {
 // 0 where the system keeps none.
 std::uint64_t peak_memory();
 
+// What it holds now.
+std::uint64_t resident_memory();
+
 // Sets the mark to what is held now. Without effect where the system does not let it be set.
 void reset_peak_memory();
 

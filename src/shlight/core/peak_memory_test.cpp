@@ -20,5 +20,17 @@ TEST(PeakMemory, RemembersWhatIsGivenBack) {
   EXPECT_LT(after, before + 2 * kBytes);
 }
 
+TEST(PeakMemory, ResidentMemoryForgetsWhatIsGivenBack) {
+  if (resident_memory() == 0) GTEST_SKIP() << "this system tells none";
+  constexpr std::size_t kBytes = 64 << 20;
+  const std::uint64_t before = resident_memory();
+  {
+    const std::vector<char> held(kBytes, 'x');
+    EXPECT_GT(resident_memory(), before + kBytes / 2) << held[before % kBytes];
+    EXPECT_LE(resident_memory(), peak_memory());
+  }
+  EXPECT_LT(resident_memory(), before + kBytes / 2);
+}
+
 }  // namespace
 }  // namespace shlight

@@ -3,6 +3,8 @@
 #include <epoxy/gl.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <glm/gtc/packing.hpp>
 #include <vector>
 
 #include "shaders.h"
@@ -15,18 +17,14 @@ namespace {
 
 constexpr double kMaxHalf = 65504;
 
-gl::Texture upload_lat_long(const Image& lat_long, double scale) {
-  SHLIGHT_ASSERT_LT(0u, lat_long.num_pixels());
-  const Image image = reduce_to_size(lat_long, gl::get_integer(GL_MAX_TEXTURE_SIZE));
-  std::vector<float> values(image.values.size());
-  std::transform(image.values.begin(), image.values.end(), values.begin(), [scale](float value) {
-    const double scaled = scale * value;
-    return scaled > 0 ? static_cast<float>(std::min(scaled, kMaxHalf)) : 0.0f;  // NaN is not above 0
-  });
+gl::Texture upload_lat_long(const HalfPicture& image) {
+  SHLIGHT_ASSERT_EQ(image.rgba.size(),
+                    4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  SHLIGHT_ASSERT_LT(0u, image.rgba.size());
   gl::Texture texture = gl::make_texture();
   glBindTexture(GL_TEXTURE_2D, texture.id());
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB16F, image.width, image.height, 0, GL_RGB, GL_FLOAT, values.data());
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA16F, image.width, image.height);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RGBA, GL_HALF_FLOAT, image.rgba.data());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   // Around the horizon the picture goes on at its other side; at the poles it ends.
@@ -48,8 +46,21 @@ glm::dmat3 ndc_to_light(const View& view, const Rotation& light_to_world) {
 
 }  // namespace
 
+HalfPicture make_half_picture(const Image& image, double scale) {
+  HalfPicture picture = {image.width, image.height, std::vector<std::uint16_t>(4 * image.num_pixels())};
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    const double scaled = scale * double{image.values[i]};
+    const float value = scaled > 0 ? static_cast<float>(std::min(scaled, kMaxHalf)) : 0.0f;  // NaN is not above 0
+    picture.rgba[4 * (i / 3) + i % 3] = glm::packHalf1x16(value);
+  }
+  return picture;
+}
+
+Background::Background(const HalfPicture& lat_long)
+    : program_(shaders::fullscreen_vert, shaders::background_image_frag), image_(upload_lat_long(lat_long)) {}
+
 Background::Background(const Image& lat_long, double scale)
-    : program_(shaders::fullscreen_vert, shaders::background_image_frag), image_(upload_lat_long(lat_long, scale)) {}
+    : Background(make_half_picture(reduce_to_size(lat_long, gl::get_integer(GL_MAX_TEXTURE_SIZE)), scale)) {}
 
 Background::Background(const RgbCoefficients& radiance)
     : program_(shaders::fullscreen_vert, shaders::background_sh_frag, make_sh_glsl(radiance.bands())) {

@@ -17,12 +17,37 @@ FrameRenderer::FrameRenderer(int width, int height)
     : width_(width), height_(height), radiance_(width, height), picture_(width, height) {}
 
 void FrameRenderer::draw(const Drawing& drawing, const FrameParams& frame) const {
-  const View view = make_view(frame.camera, drawing.extent, static_cast<double>(width_) / height_);
-  unit_ = drawing.scale.unit;
+  clear();
+  add_surfaces(drawing, frame);
+  add_background(drawing, frame);
+  average();
+  make_picture(drawing, frame);
+}
+
+View FrameRenderer::view(const Drawing& drawing, const FrameParams& frame) const {
+  return make_view(frame.camera, drawing.extent, static_cast<double>(width_) / height_);
+}
+
+void FrameRenderer::clear() const {
   radiance_.begin();
-  draw_surfaces(drawing.surfaces, drawing.scene, view, frame.rotate_light);
-  if (drawing.background) drawing.background->draw(view, frame.rotate_light);
+}
+
+void FrameRenderer::add_surfaces(const Drawing& drawing, const FrameParams& frame) const {
+  radiance_.resume();
+  draw_surfaces(drawing.surfaces, drawing.scene, view(drawing, frame), frame.rotate_light);
+}
+
+void FrameRenderer::add_background(const Drawing& drawing, const FrameParams& frame) const {
+  radiance_.resume();
+  if (drawing.background) drawing.background->draw(view(drawing, frame), frame.rotate_light);
+}
+
+void FrameRenderer::average() const {
   radiance_.resolve();
+}
+
+void FrameRenderer::make_picture(const Drawing& drawing, const FrameParams& frame) const {
+  unit_ = drawing.scale.unit;
   picture_.begin();
   tone_mapper_.draw(radiance_.texture(), exposed(drawing.scale, frame), frame.curve);
 }

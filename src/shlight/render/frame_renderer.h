@@ -40,6 +40,14 @@ class FrameRenderer {
   FrameRenderer(int width, int height);
 
   void draw(const Drawing& drawing, const FrameParams& frame) const;
+  // The same in steps, for who draws a scene in parts (FrameInParts): clear(), add_surfaces() for each range of the
+  // scene's triangles, add_background(), average(), and make_picture(), after which there is a new picture. Each but
+  // the first and the last may be confined to some rows by OpenGL's scissor.
+  void clear() const;
+  void add_surfaces(const Drawing& drawing, const FrameParams& frame) const;
+  void add_background(const Drawing& drawing, const FrameParams& frame) const;
+  void average() const;
+  void make_picture(const Drawing& drawing, const FrameParams& frame) const;
   // Waits until the device has drawn it.
   void finish() const;
 
@@ -52,6 +60,8 @@ class FrameRenderer {
   int height() const { return height_; }
 
  private:
+  View view(const Drawing& drawing, const FrameParams& frame) const;
+
   int width_, height_;
   RadianceTarget radiance_;
   PictureTarget picture_;

@@ -63,6 +63,9 @@ void delete_framebuffer(unsigned id) {
 void delete_program(unsigned id) {
   glDeleteProgram(id);
 }
+void delete_query(unsigned id) {
+  glDeleteQueries(1, &id);
+}
 
 Buffer make_buffer() {
   unsigned id = 0;
@@ -92,6 +95,12 @@ Framebuffer make_framebuffer() {
   unsigned id = 0;
   glGenFramebuffers(1, &id);
   return Framebuffer(id);
+}
+
+Query make_query() {
+  unsigned id = 0;
+  glGenQueries(1, &id);
+  return Query(id);
 }
 
 Program::Program(std::string_view vertex, std::string_view fragment, std::string_view fragment_functions)

@@ -39,18 +39,21 @@ void delete_texture(unsigned id);
 void delete_renderbuffer(unsigned id);
 void delete_framebuffer(unsigned id);
 void delete_program(unsigned id);
+void delete_query(unsigned id);
 
 using Buffer = Handle<delete_buffer>;
 using VertexArray = Handle<delete_vertex_array>;
 using Texture = Handle<delete_texture>;
 using Renderbuffer = Handle<delete_renderbuffer>;
 using Framebuffer = Handle<delete_framebuffer>;
+using Query = Handle<delete_query>;
 
 Buffer make_buffer();
 VertexArray make_vertex_array();
 Texture make_texture();
 Renderbuffer make_renderbuffer();
 Framebuffer make_framebuffer();
+Query make_query();
 
 // Column-major 3x3 matrix, as OpenGL has it.
 using Mat3f = std::array<float, 9>;

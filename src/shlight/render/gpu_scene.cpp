@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 
 #include "shlight/core/assert.h"
 #include "shlight/core/error.h"
@@ -80,7 +81,6 @@ glm::dmat3 normal_matrix(const glm::dmat3& m) {
 GpuScene::GpuScene(const Scene& scene, bool tangents)
     : instances_(scene.instances),
       materials_(scene.materials),
-      shadows_(gl::make_buffer()),
       white_(make_white_texture()),
       num_vertices_(shlight::num_vertices(scene)) {
   for (const Image8& image : scene.textures) textures_.push_back(upload_texture(image));
@@ -112,12 +112,23 @@ GpuScene::GpuScene(const Scene& scene, bool tangents)
   gl::check_errors("the scene's buffers and textures");
 }
 
-void GpuScene::set_shadows(std::span<const Vec3f> of_vertices) {
-  SHLIGHT_ASSERT_EQ(of_vertices.size(), num_vertices_);
-  glBindBuffer(GL_ARRAY_BUFFER, shadows_.id());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(of_vertices.size_bytes()), of_vertices.data(), GL_DYNAMIC_DRAW);
+GpuShadows::GpuShadows(std::span<const Vec3f> of_vertices)
+    : buffer_(gl::make_buffer()), num_vertices_(of_vertices.size()) {
+  glBindBuffer(GL_ARRAY_BUFFER, buffer_.id());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(of_vertices.size_bytes()), of_vertices.data(), GL_STATIC_DRAW);
   gl::check_errors("the shadows of vertices");
-  has_shadows_ = true;
+}
+
+void GpuScene::set_shadows(const GpuShadows* shadows) {
+  if (shadows) SHLIGHT_ASSERT_EQ(shadows->num_vertices(), num_vertices_);
+  shadows_ = shadows;
+}
+
+std::vector<std::size_t> GpuScene::num_triangles() const {
+  std::vector<std::size_t> counts;
+  for (const Instance& instance : instances_)
+    counts.push_back(static_cast<std::size_t>(meshes_[instance.mesh].num_indices) / 3);
+  return counts;
 }
 
 void GpuScene::draw(const gl::Program& program, const View& view, const Rotation& light_to_world) const {
@@ -139,9 +150,16 @@ void GpuScene::draw(const ProgramOfMaterial& program_of, const View& view, const
   glVertexAttrib3f(kColor, 1, 1, 1);
   glVertexAttrib3f(kShadow, 1, 1, 1);
 
-  std::size_t first_vertex = 0;
+  std::size_t first_vertex = 0, first_triangle = 0;
   for (const Instance& instance : instances_) {
     const GpuMesh& mesh = meshes_[instance.mesh];
+    const std::size_t vertex = std::exchange(first_vertex, first_vertex + mesh.num_vertices);
+    // Its part of the range.
+    const std::size_t triangles = static_cast<std::size_t>(mesh.num_indices) / 3;
+    const std::size_t before = std::exchange(first_triangle, first_triangle + triangles);
+    const std::size_t begin = std::clamp(range_.begin, before, first_triangle) - before,
+                      end = std::clamp(range_.end, before, first_triangle) - before;
+    if (begin >= end) continue;
     const Material& material = materials_[mesh.material];
     const glm::dmat4 to_world = to_glm(instance.to_world);
     const gl::Program& program = program_of(mesh.material);
@@ -150,21 +168,22 @@ void GpuScene::draw(const ProgramOfMaterial& program_of, const View& view, const
     program.set("u_object_to_eye", to_mat4f(world_to_eye * to_world));
     program.set("u_object_to_clip", to_mat4f(world_to_clip * to_world));
     program.set("u_normal_to_light", to_mat3f(world_to_light * normal_matrix(glm::dmat3(to_world))));
-    program.set("u_first_vertex", static_cast<int>(first_vertex));
+    program.set("u_first_vertex", static_cast<int>(vertex));
     program.set("u_base_color", material.base_color);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, material.texture ? textures_[*material.texture].id() : white_.id());
     // A mirroring instance turns the winding around.
     glFrontFace(glm::determinant(glm::dmat3(to_world)) < 0 ? GL_CW : GL_CCW);
     glBindVertexArray(mesh.vertex_array.id());
-    if (has_shadows_) {
-      glBindBuffer(GL_ARRAY_BUFFER, shadows_.id());
+    if (shadows_) {
+      glBindBuffer(GL_ARRAY_BUFFER, shadows_->buffer());
       glEnableVertexAttribArray(kShadow);
-      glVertexAttribPointer(kShadow, 3, GL_FLOAT, GL_FALSE, 0,
-                            reinterpret_cast<const void*>(first_vertex * sizeof(Vec3f)));
+      glVertexAttribPointer(kShadow, 3, GL_FLOAT, GL_FALSE, 0, reinterpret_cast<const void*>(vertex * sizeof(Vec3f)));
+    } else {
+      glDisableVertexAttribArray(kShadow);
     }
-    first_vertex += mesh.num_vertices;
-    glDrawElements(GL_TRIANGLES, mesh.num_indices, GL_UNSIGNED_INT, nullptr);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * (end - begin)), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(3 * begin * sizeof(std::uint32_t)));
   }
   glFrontFace(GL_CCW);
   glBindVertexArray(0);

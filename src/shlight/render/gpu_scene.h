@@ -13,6 +13,24 @@
 
 namespace shlight {
 
+// What dims the light of each vertex, in the memory of the graphics card, for any GpuScene of as many vertices.
+class GpuShadows {
+ public:
+  // Factors of radiance. Throws Error where memory runs out.
+  explicit GpuShadows(std::span<const Vec3f> of_vertices);
+  std::size_t num_vertices() const { return num_vertices_; }
+  unsigned buffer() const { return buffer_.id(); }
+
+ private:
+  gl::Buffer buffer_;
+  std::size_t num_vertices_;
+};
+
+// The triangles from `begin` to before `end` of all instances', in the sequence in which they are drawn.
+struct TriangleRange {
+  std::size_t begin = 0, end = static_cast<std::size_t>(-1);
+};
+
 // A scene's meshes and textures in the memory of the graphics card, for any renderer whose programs use the vertex
 // shader mesh.vert or transfer.vert. Needs the context in which it was made.
 class GpuScene {
@@ -31,13 +49,17 @@ class GpuScene {
   // The same with one program for all.
   void draw(const gl::Program& program, const View& view, const Rotation& light_to_world) const;
 
-  // What the vertex shaders mesh.vert and reflectance_vertex.vert hand on as v_shadow, for each vertex; 1 before it is
-  // set.
-  void set_shadows(std::span<const Vec3f> of_vertices);
+  // From now on, what the vertex shaders mesh.vert and reflectance_vertex.vert hand on as v_shadow, for each vertex;
+  // null: 1. Has to live until other ones are set.
+  void set_shadows(const GpuShadows* shadows);
+  // From now on, draws no other triangles than these.
+  void set_range(TriangleRange range) { range_ = range; }
 
   // Of all instances. A mesh's vertices keep their sequence, and instances theirs: vertex v of an instance is the
   // (first vertex + v)th.
   std::size_t num_vertices() const { return num_vertices_; }
+  // Of each instance.
+  std::vector<std::size_t> num_triangles() const;
 
  private:
   struct GpuMesh {
@@ -52,8 +74,8 @@ class GpuScene {
   std::vector<Instance> instances_;
   std::vector<Material> materials_;
   std::vector<gl::Texture> textures_;
-  gl::Buffer shadows_;
-  bool has_shadows_ = false;
+  const GpuShadows* shadows_ = nullptr;
+  TriangleRange range_;
   gl::Texture white_;  // of materials without a texture
   std::size_t num_vertices_;
 };

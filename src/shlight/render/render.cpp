@@ -57,13 +57,16 @@ RenderResult render(const Scene& scene, const RenderLight& light, const RenderPa
     mark_negative(renderer, {bright, 0, bright});
   }
   GpuScene gpu_scene(params.show == Show::kVisibility ? without_colors(scene) : scene, needs_tangents(renderer));
+  std::optional<GpuShadows> shadows;
   const Drawing drawing = {gpu_scene, scene_extent(scene), renderer, background ? &*background : nullptr, scale};
   const auto draw = [&](double turn) {
     frame.camera = params.camera;
     frame.camera.azimuth += turn;
     if (params.turn_light) frame.rotate_light = rotation_about_y(-turn * std::numbers::pi / 180) * params.rotate_light;
-    if (params.shadows && (params.turn_light || turn == 0))
-      gpu_scene.set_shadows(params.shadows->under(rotate(frame.rotate_light, coefficients)));
+    if (params.shadows && (params.turn_light || turn == 0)) {
+      shadows = GpuShadows(params.shadows->under(rotate(frame.rotate_light, coefficients)));
+      gpu_scene.set_shadows(&*shadows);
+    }
     frame_renderer.draw(drawing, frame);
     frame_renderer.finish();
   };

@@ -85,9 +85,13 @@ RadianceTarget::RadianceTarget(int width, int height) : width_(width), height_(h
   gl::check_framebuffer(what);
 }
 
-void RadianceTarget::begin() const {
+void RadianceTarget::resume() const {
   glBindFramebuffer(GL_FRAMEBUFFER, samples_.id());
   glViewport(0, 0, width_, height_);
+}
+
+void RadianceTarget::begin() const {
+  resume();
   glClearColor(0, 0, 0, 1);
   glDepthMask(GL_TRUE);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);

@@ -17,6 +17,8 @@ class RadianceTarget {
 
   // Binds it, sets the viewport, clears to black and far.
   void begin() const;
+  // The same, but keeps what is there.
+  void resume() const;
   // Averages the samples into texture().
   void resolve() const;
   // RGBA16F, one value a pixel, rows from the bottom.

@@ -53,55 +53,55 @@ void set_nearest(GLenum target) {
   glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-// A pixel of a layer belongs to a vertex, row by row: fill_pixel(layer, vertex, pixel) writes its four numbers, which
-// were zeros.
-template <class Number, class FillPixel>
-gl::Texture upload_layers(std::size_t vertices, int layers, const FillPixel& fill_pixel) {
-  constexpr PixelFormat kFormat = kPixelFormat<Number>;
-  const auto rows = static_cast<int>(std::max<std::size_t>((vertices + kRow - 1) / kRow, 1));
-  const int max_rows = gl::get_integer(GL_MAX_TEXTURE_SIZE);
+int num_rows(std::size_t vertices) {
+  return static_cast<int>(std::max<std::size_t>((vertices + kRow - 1) / kRow, 1));
+}
+
+gl::Texture make_layers(std::size_t vertices, int layers, GLenum internal_format) {
+  const int rows = num_rows(vertices), max_rows = gl::get_integer(GL_MAX_TEXTURE_SIZE);
   if (rows > max_rows)
     throw Error("OpenGL", fmt::format("transfer of {} vertices cannot be drawn", vertices),
                 fmt::format("at most {}", static_cast<std::size_t>(max_rows) * kRow));
   gl::Texture texture = gl::make_texture();
   glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id());
-  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, kFormat.internal, kRow, rows, layers);
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, internal_format, kRow, rows, layers);
   set_nearest(GL_TEXTURE_2D_ARRAY);
-  std::vector<Number> values(4 * static_cast<std::size_t>(kRow) * static_cast<std::size_t>(rows));
-  for (int layer = 0; layer < layers; ++layer) {
-    std::ranges::fill(values, Number{0});
-    for (std::size_t v = 0; v < vertices; ++v) fill_pixel(static_cast<std::size_t>(layer), v, &values[4 * v]);
-    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, kRow, rows, 1, kFormat.format, kFormat.type, values.data());
-  }
   gl::check_errors("the transfer's texture");
   return texture;
 }
 
-// The first `bands` bands of all vertices, a layer for every four coefficients of a channel; `encode` makes the Number
-// of coefficient i of the row of all channels.
-template <class Number, class Encode>
-gl::Texture upload_transfer(const Transfer& transfer, int bands, const Encode& encode) {
-  const auto stride = static_cast<std::size_t>(num_coefficients(transfer.bands));
-  const auto used = static_cast<std::size_t>(num_coefficients(bands));
-  const auto channels = static_cast<std::size_t>(transfer.channels),
-             layers = static_cast<std::size_t>(num_layers(bands));
-  return upload_layers<Number>(transfer.num_vertices(), transfer.channels * num_layers(bands),
-                               [&](std::size_t layer, std::size_t v, Number* pixel) {
-                                 const std::size_t first = 4 * (layer % layers), at = layer / layers * stride + first;
-                                 for (std::size_t i = 0; i < std::min<std::size_t>(4, used - first); ++i)
-                                   pixel[i] = encode(transfer.coefficients[v * channels * stride + at + i], at + i);
-                               });
+// A pixel of a layer belongs to a vertex, row by row: fill_pixel(vertex, pixel) writes its four numbers, which were
+// zeros.
+template <class Number, class FillPixel>
+void upload_layer(const gl::Texture& texture, std::size_t vertices, int layer, const FillPixel& fill_pixel) {
+  constexpr PixelFormat kFormat = kPixelFormat<Number>;
+  const int rows = num_rows(vertices);
+  std::vector<Number> values(4 * static_cast<std::size_t>(kRow) * static_cast<std::size_t>(rows));
+  for (std::size_t v = 0; v < vertices; ++v) fill_pixel(v, &values[4 * v]);
+  glBindTexture(GL_TEXTURE_2D_ARRAY, texture.id());
+  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer, kRow, rows, 1, kFormat.format, kFormat.type, values.data());
+  gl::check_errors("the transfer's texture");
 }
 
-gl::Texture upload_transfer(const Transfer& transfer, int bands, int bits, std::span<const float> scales) {
-  const auto number = [&](float a, std::size_t i) { return quantise(a, scales[i], bits); };
-  if (bits == 8)
-    return upload_transfer<std::int8_t>(transfer, bands,
-                                        [&](float a, std::size_t i) { return static_cast<std::int8_t>(number(a, i)); });
-  if (bits == 16)
-    return upload_transfer<std::int16_t>(
-        transfer, bands, [&](float a, std::size_t i) { return static_cast<std::int16_t>(number(a, i)); });
-  return upload_transfer<float>(transfer, bands, [](float a, std::size_t) { return a; });
+// Four coefficients of a channel of all vertices, of their first `bands` bands; `encode` makes the Number of
+// coefficient i of the row of all channels.
+template <class Number, class Encode>
+void upload_layer(const gl::Texture& texture, const Transfer& transfer, int bands, int layer, const Encode& encode) {
+  const auto stride = static_cast<std::size_t>(num_coefficients(transfer.bands));
+  const auto used = static_cast<std::size_t>(num_coefficients(bands));
+  const auto channels = static_cast<std::size_t>(transfer.channels);
+  const auto first = static_cast<std::size_t>(4 * (layer % num_layers(bands)));
+  const std::size_t at = static_cast<std::size_t>(layer / num_layers(bands)) * stride + first;
+  upload_layer<Number>(texture, transfer.num_vertices(), layer, [&](std::size_t v, Number* pixel) {
+    for (std::size_t i = 0; i < std::min<std::size_t>(4, used - first); ++i)
+      pixel[i] = encode(transfer.coefficients[v * channels * stride + at + i], at + i);
+  });
+}
+
+GLenum internal_format(int bits) {
+  return bits == 8    ? kPixelFormat<std::int8_t>.internal
+         : bits == 16 ? kPixelFormat<std::int16_t>.internal
+                      : kPixelFormat<float>.internal;
 }
 
 // What a number 1 in the texture stands for, for each coefficient and channel.
@@ -124,10 +124,13 @@ RgbCoefficients number_scales(const Transfer& transfer, int bands, int bits, std
 
 gl::Texture upload_codes(const ClusteredPca& pca) {
   const std::size_t n = pca.rows_per_cluster();
-  return upload_layers<std::int16_t>(
-      pca.num_vertices(), num_code_layers(pca), [&](std::size_t layer, std::size_t v, std::int16_t* pixel) {
-        std::copy_n(&pca.codes[v * n + 4 * layer], std::min<std::size_t>(4, n - 4 * layer), pixel);
-      });
+  gl::Texture texture = make_layers(pca.num_vertices(), num_code_layers(pca), internal_format(16));
+  for (std::size_t layer = 0; layer < static_cast<std::size_t>(num_code_layers(pca)); ++layer)
+    upload_layer<std::int16_t>(
+        texture, pca.num_vertices(), static_cast<int>(layer), [&](std::size_t v, std::int16_t* pixel) {
+          std::copy_n(&pca.codes[v * n + 4 * layer], std::min<std::size_t>(4, n - 4 * layer), pixel);
+        });
+  return texture;
 }
 
 gl::Texture make_rows(const ClusteredPca& pca) {
@@ -174,20 +177,31 @@ std::string joined(std::initializer_list<std::string_view> sources) {
 }  // namespace
 
 TransferRenderer::TransferRenderer(const Transfer& transfer, const RgbCoefficients& radiance, int bits)
+    : TransferRenderer(Empty{}, transfer, radiance, bits) {
+  while (!upload(transfer)) continue;
+}
+
+TransferRenderer TransferRenderer::make_empty(const Transfer& transfer, const RgbCoefficients& radiance, int bits) {
+  return {Empty{}, transfer, radiance, bits};
+}
+
+TransferRenderer::TransferRenderer(Empty, const Transfer& transfer, const RgbCoefficients& radiance, int bits)
     : num_vertices_(transfer.num_vertices()),
       radiance_(resize_bands(radiance, std::min(radiance.bands(), transfer.bands))),
       program_(joined({shaders::transfer_vert, shaders::transfer_sum_vert,
                        bits == 32 ? shaders::transfer_floats_vert : shaders::transfer_numbers_vert}),
-               shaders::surface_frag, shaders::transfer_frag) {
+               shaders::surface_frag, shaders::transfer_frag),
+      bits_(bits),
+      layers_(transfer.channels * num_layers(radiance_.bands())) {
   SHLIGHT_ASSERT_LE(1, radiance_.bands());
   SHLIGHT_ASSERT_LE(radiance_.bands(), kMaxTransferBands);
   SHLIGHT_ASSERT_EQ(transfer.channels == 1 || transfer.channels == 3, true);
   SHLIGHT_ASSERT_EQ(is_transfer_bits(bits), true);
   SHLIGHT_ASSERT_EQ(transfer.coefficients.size(), num_vertices_ * static_cast<std::size_t>(transfer.channels) *
                                                       static_cast<std::size_t>(num_coefficients(transfer.bands)));
-  const std::vector<float> scales = bits == 32 ? std::vector<float>() : quantisation_scales(transfer);
-  transfer_ = upload_transfer(transfer, radiance_.bands(), bits, scales);
-  scales_ = number_scales(transfer, radiance_.bands(), bits, scales);
+  if (bits < 32) number_scales_ = quantisation_scales(transfer);
+  transfer_ = make_layers(num_vertices_, layers_, internal_format(bits));
+  scales_ = number_scales(transfer, radiance_.bands(), bits, number_scales_);
   program_.use();
   program_.set("u_transfer", 1);
   program_.set("u_colored", transfer.channels == 3 ? 1 : 0);
@@ -209,6 +223,22 @@ TransferRenderer::TransferRenderer(const ClusteredPca& pca, const RgbCoefficient
   program_.set("u_layers", num_code_layers(pca));
 }
 
+bool TransferRenderer::upload(const Transfer& transfer) {
+  SHLIGHT_ASSERT_EQ(transfer.num_vertices(), num_vertices_);
+  if (uploaded_ == layers_) return true;
+  const int bands = radiance_.bands(), layer = uploaded_++;
+  const auto number = [&](float a, std::size_t i) { return quantise(a, number_scales_[i], bits_); };
+  if (bits_ == 8)
+    upload_layer<std::int8_t>(transfer_, transfer, bands, layer,
+                              [&](float a, std::size_t i) { return static_cast<std::int8_t>(number(a, i)); });
+  else if (bits_ == 16)
+    upload_layer<std::int16_t>(transfer_, transfer, bands, layer,
+                               [&](float a, std::size_t i) { return static_cast<std::int16_t>(number(a, i)); });
+  else
+    upload_layer<float>(transfer_, transfer, bands, layer, [](float a, std::size_t) { return a; });
+  return uploaded_ == layers_;
+}
+
 void TransferRenderer::set_radiance(const RgbCoefficients& radiance) {
   radiance_ = resize_bands(radiance, radiance_.bands());
 }
@@ -220,6 +250,7 @@ void TransferRenderer::mark_negative(Vec3f radiance) {
 
 void TransferRenderer::draw(const GpuScene& scene, const View& view, const Rotation& light_to_world) const {
   SHLIGHT_ASSERT_EQ(scene.num_vertices(), num_vertices_);
+  SHLIGHT_ASSERT_EQ(uploaded_, layers_);
   program_.use();
   const RgbCoefficients radiance = rotate(light_to_world, radiance_);
   if (pca_) {
