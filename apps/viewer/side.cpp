@@ -27,6 +27,11 @@ bool needs_shadows(const Subject& subject, const Look& look) {
   return subject.model->is_baked && needs_tables(look) && look.transfer != TransferKind::kCosine;
 }
 
+// The degree that is shown alone; -1 where all are.
+int degree_of(const Look& look) {
+  return look.show == Show::kDegree ? std::min(look.degree, look.bands - 1) : -1;
+}
+
 std::string text_of(const Rotation& rotation) {
   std::string text;
   for (const Vec3d& row : rotation.rows) text += fmt::format(" {} {} {}", row.x, row.y, row.z);
@@ -44,7 +49,8 @@ std::string bake_key(const Subject& subject, const Look& look) {
 std::string table_key(const Subject& subject, const Look& look) {
   std::string key = fmt::format("{} {} {}", look.material.empty() ? subject.model->key : "", look.material, look.bands);
   // The cubes of the hybrid method are of the light.
-  if (look.method == Method::kHybrid) key += fmt::format(" hybrid {} {}", subject.light->key, look.window);
+  if (look.method == Method::kHybrid)
+    key += fmt::format(" hybrid {} {} {}", subject.light->key, look.window, degree_of(look));
   return key;
 }
 
@@ -73,6 +79,7 @@ void Side::request_tables(const Subject& subject, const Look& look) {
   const bool hybrid = look.method == Method::kHybrid;
   RenderLight light;
   if (hybrid) light = {shaped_light(subject, look, look.bands), subject.light->drawn.background};
+  if (const int degree = degree_of(look); degree >= 0) light = {keep_degree(light.coefficients, degree), {}};
   table_.request(
       key,
       [key, model = subject.model, look, hybrid, light = std::move(light)](const auto& publish,
@@ -128,7 +135,7 @@ void Side::request_bake(const Subject& subject, const Look& look) {
 
 // Of the light as it falls now: they are found anew while it turns.
 void Side::request_shadows(const Subject& subject, const Settings& settings, const Look& look) {
-  const int degree = look.show == Show::kDegree ? std::min(look.degree, look.bands - 1) : -1;
+  const int degree = degree_of(look);
   const std::string key = fmt::format("{} {} {} {} {}{}", subject.model->key, subject.light->key, look.window,
                                       look.bands, degree, text_of(settings.rotate_light));
   if (key == shadow_.wanted()) return;

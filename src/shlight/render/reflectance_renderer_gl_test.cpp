@@ -420,6 +420,20 @@ TEST_F(ReflectanceRendererTest, HybridReflectsTheSunAsTheModelDoes) {
   }
 }
 
+TEST_F(ReflectanceRendererTest, HybridShowsOneDegreeWithoutTheSun) {
+  const Image picture = make_sunny_picture({0, 0.6, 0.8});
+  const auto light = std::make_unique<ImageLight>(Environment{picture, Layout::kLatLong});
+  const auto surfaces = make_surface_reflectances(sphere_, *make_brdf("ggx:alpha=0.1,f0=0.8"), table_params(3), true);
+  RenderParams params = parallel_params(3);
+  params.show = Show::kDegree;
+  params.degree = 0;
+  const Rgb shown =
+      render_hybrid(sphere_, surfaces, {light->project(3, 0), picture}, params).radiance.rgb(kSize / 2, kSize / 2);
+  const ReflectanceTable table = make_reflectance_table(*make_brdf("ggx:alpha=0.1,f0=0.8"), table_params(1));
+  const Rgb expected = reflect_light(table, {0, 0, 1}, light->project(1, 0));
+  EXPECT_NEAR(shown.g, expected.g, 0.01 * expected.g);
+}
+
 TEST_F(ReflectanceRendererTest, BakedShadowsAreThoseOfTransfer) {
   // Of matte surfaces, reflectance times the share of irradiance is the transfer's own sum.
   const Scene scene = without_colors(make_scene("builtin:scene"));

@@ -109,7 +109,9 @@ RenderResult render_reflectance(const Scene& scene, std::span<const SurfaceRefle
 RenderResult render_hybrid(const Scene& scene, std::span<const SurfaceReflectance> surfaces, const RenderLight& light,
                            const RenderParams& params, const Progress& progress) {
   SHLIGHT_ASSERT_EQ(surfaces.size(), scene.materials.size());
-  const HighlightLight highlights = make_highlight_light(surfaces, light, params.bands);
+  const RenderLight degree = {keep_degree(light.coefficients, params.degree), {}};
+  const HighlightLight highlights =
+      make_highlight_light(surfaces, params.show == Show::kDegree ? degree : light, params.bands);
   return render(scene, light, params, progress, [&](const RgbCoefficients& radiance, double unit) {
     return ReflectanceRenderer(surfaces, radiance, params.shade, &highlights, unit);
   });
