@@ -101,8 +101,16 @@ void reflect_light(vec3 n, vec3 tangent, vec3 to_eye, out vec3 plain, out vec3 t
 #ifdef HIGHLIGHT_LAYER
 #ifdef ANISOTROPIC
   vec3 residual = vec3(0.0), wide = u_wide_along_x ? t : cross(n, t);
-  for (int k = 0; k < LOBE_TAPS; ++k)
-    residual += 1.0 / float(LOBE_TAPS) * textureLod(u_residual, reflect(-v, normalize(n + u_slopes[k] * wide)), 0.0).rgb;
+  float n_v = max(dot(n, v), 1e-3), all_facets = 0.0;
+  for (int k = 0; k < LOBE_TAPS; ++k) {
+    vec3 half_way = normalize(n + u_slopes[k] * wide);
+    float v_h = dot(v, half_way), n_h = dot(n, half_way), n_light = 2.0 * v_h * n_h - n_v;
+    // How much of them the eye sees and the light reaches, grooves between.
+    float facets = max(min(v_h / (n_v * n_h), 2.0 * min(1.0, n_light / n_v)), 0.0);
+    residual += facets * textureLod(u_residual, reflect(-v, half_way), 0.0).rgb;
+    all_facets += facets;
+  }
+  residual /= max(all_facets, 1e-3);
 #else
   vec3 residual = textureLod(u_residual, reflect(-v, n), 0.0).rgb;
 #endif
