@@ -94,7 +94,8 @@ void Side::request_tables(const Subject& subject, const Look& look) {
           tables->surfaces = make_surface_reflectances(scene, params, hybrid, progress);
         else
           tables->surfaces = make_surface_reflectances(scene, *make_brdf(look.material), params, hybrid);
-        if (hybrid) tables->highlights = make_highlight_light(tables->surfaces, light, look.bands, progress);
+        if (hybrid)
+          tables->highlights = make_highlight_light(tables->surfaces, light, look.bands, worker_threads(), progress);
         publish(tables);
       },
       false);

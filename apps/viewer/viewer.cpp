@@ -116,7 +116,7 @@ class Viewer {
   // How long this frame may draw pictures: what is left of a frame's time after all else; where that is not much, so
   // long that pictures do not take several times as long as they have to. The first one is to be there soon.
   double drawing_ms() const {
-    constexpr double kFrame = 36, kMost = 24, kFirst = 150, kShare = 0.5;
+    constexpr double kFrame = 26, kMost = 24, kFirst = 150, kShare = 0.5;
     if (!first_picture_ms_) return kFirst;
     return std::max(std::min(kFrame - beside_ms_, kMost), kShare * beside_ms_);
   }

@@ -56,18 +56,18 @@ Image take_away(double share, const Image& rest, Image picture) {
 }  // namespace
 
 HighlightLight make_highlight_light(std::span<const SurfaceReflectance> surfaces, const RenderLight& light, int bands,
-                                    const Progress& progress) {
+                                    int threads, const Progress& progress) {
   constexpr int kWidth = 256;  // of a light that is coefficients
   const bool has_picture = light.background.num_pixels() > 0;
-  const Image picture = has_picture ? light.background : CoefficientLight(light.coefficients).lat_long(kWidth, 0);
+  const Image picture = has_picture ? light.background : CoefficientLight(light.coefficients).lat_long(kWidth, threads);
   const RgbCoefficients coefficients = resize_bands(light.coefficients, bands);
   HighlightLight result;
   result.sun_coefficients = RgbCoefficients(bands);
   Environment rest = {picture, Layout::kLatLong};
-  if (has_picture) result.sun = split_sun(rest);
+  if (has_picture) result.sun = split_sun(rest, threads);
   if (result.sun)
     result.sun_coefficients =
-        windowed_sun(*result.sun, project_image({picture, Layout::kLatLong}, bands, 0), coefficients);
+        windowed_sun(*result.sun, project_image({picture, Layout::kLatLong}, bands, threads), coefficients);
 
   std::map<double, ResidualLight> residuals;  // by the share of the sun that is taken away
   result.surfaces.resize(surfaces.size());
@@ -85,9 +85,10 @@ HighlightLight make_highlight_light(std::span<const SurfaceReflectance> surfaces
     if (!residuals.contains(share)) {
       RgbCoefficients without = result.sun_coefficients;
       for (std::size_t k = 0; k < without.size(); ++k) without[k] = coefficients[k] - share * without[k];
-      residuals.emplace(share, ResidualLight(take_away(share, rest.image, picture), taken_by_highlights(without)));
+      residuals.emplace(share,
+                        ResidualLight(take_away(share, rest.image, picture), taken_by_highlights(without), threads));
     }
-    result.surfaces[i] = {prefilter_cube(residuals.at(share), lobe, prefiltered_size(lobe.width)), share};
+    result.surfaces[i] = {prefilter_cube(residuals.at(share), lobe, prefiltered_size(lobe.width), threads), share};
   }
   report_progress(progress, 1);
   return result;

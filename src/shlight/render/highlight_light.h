@@ -28,8 +28,8 @@ struct HighlightLight {
 // Of each surface and the first `bands` bands. Slim lobes have all of the sun as a directional light; near mirrors,
 // which show its picture, have it in the cube map, and lobes that the bands hold, in the bands; between, some of both,
 // so that nothing jumps where roughness changes. A light without a picture is what its coefficients reconstruct and has
-// no sun. All threads; for near mirrors a second's work. Throws Cancelled.
+// no sun. For near mirrors a second's work. Throws Cancelled.
 HighlightLight make_highlight_light(std::span<const SurfaceReflectance> surfaces, const RenderLight& light, int bands,
-                                    const Progress& progress = {});
+                                    int threads = 0, const Progress& progress = {});
 
 }  // namespace shlight

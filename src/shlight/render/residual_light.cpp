@@ -50,13 +50,14 @@ Vec3d cube_direction(int face, double a, double b) {
 
 }  // namespace
 
-ResidualLight::ResidualLight(const Image& picture, const RgbCoefficients& coefficients) {
+ResidualLight::ResidualLight(const Image& picture, const RgbCoefficients& coefficients, int threads) {
   MakePictureParams params;
   params.layout = Layout::kVerticalStrip;
   params.size = kFinestSize;
+  params.threads = threads;
   Environment finest = {resample({picture, Layout::kLatLong}, params), params.layout};
   Image& image = finest.image;
-  parallel_for(static_cast<std::size_t>(image.height), 0, [&](std::size_t row) {
+  parallel_for(static_cast<std::size_t>(image.height), threads, [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < image.width; ++x) {
       const Vec3d d = *direction_at(finest.layout, pixel_centre(finest.layout, finest.size(), {x, y}));
@@ -90,10 +91,10 @@ namespace {
 
 using PixelOf = std::function<Rgb(Vec3d direction)>;
 
-CubeFaces make_cube(int size, const PixelOf& pixel_of) {
+CubeFaces make_cube(int size, int threads, const PixelOf& pixel_of) {
   CubeFaces faces;
   for (Image& face : faces) face = Image(size, size);
-  parallel_for(static_cast<std::size_t>(6 * size), 0, [&](std::size_t task) {
+  parallel_for(static_cast<std::size_t>(6 * size), threads, [&](std::size_t task) {
     const int face = static_cast<int>(task) / size, y = static_cast<int>(task) % size;
     for (int x = 0; x < size; ++x) {
       const Vec3d d = cube_direction(face, (2 * x + 1.0) / size - 1, (2 * y + 1.0) / size - 1);
@@ -147,10 +148,10 @@ constexpr int kLargestSummedSize = 64;
 
 }  // namespace
 
-CubeFaces prefilter_cube(const ResidualLight& light, const LobeFromAbove& lobe, int size) {
+CubeFaces prefilter_cube(const ResidualLight& light, const LobeFromAbove& lobe, int size, int threads) {
   if (size <= kLargestSummedSize) {
     const Pixels pixels = pixels_of(light.level_of_size(std::min(2 * size, kLargestSummedSize)));
-    return make_cube(size, [&](Vec3d n) { return mean_over_profile(pixels, lobe.profile, n); });
+    return make_cube(size, threads, [&](Vec3d n) { return mean_over_profile(pixels, lobe.profile, n); });
   }
 
   // What a sample stands for is taken from the level whose pixels are four times as large, so that what small lamps
@@ -159,7 +160,7 @@ CubeFaces prefilter_cube(const ResidualLight& light, const LobeFromAbove& lobe, 
   for (const LobeSample& sample : lobe.samples)
     levels.push_back(0.5 * std::log2(std::max(4 * sample.solid_angle / light.pixel_solid_angle(), 1.0)));
 
-  return make_cube(size, [&](Vec3d n) {
+  return make_cube(size, threads, [&](Vec3d n) {
     const Vec3d aside = std::abs(n.y) < 0.9 ? Vec3d{n.z, 0, -n.x} : Vec3d{0, -n.z, n.y};
     const Vec3d t = (1 / std::sqrt(dot(aside, aside))) * aside, b = cross(n, t);
     Rgb sum;

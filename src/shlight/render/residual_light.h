@@ -16,7 +16,7 @@ namespace shlight {
 class ResidualLight {
  public:
   // `picture` is a lat-long map of radiance, `coefficients` those of the same light.
-  ResidualLight(const Image& picture, const RgbCoefficients& coefficients);
+  ResidualLight(const Image& picture, const RgbCoefficients& coefficients, int threads = 0);
 
   // The mean over about 2^level x 2^level pixels of the finest cube map around `direction`.
   Rgb eval(Vec3d direction, double level) const;
@@ -32,9 +32,9 @@ class ResidualLight {
 // Six square faces of size x size pixels in OpenGL's sequence and orientation (+X −X +Y −Y +Z −Z), rows as glTexImage2D
 // takes them: the mean of the light over `lobe` turned around each pixel's direction. Small faces, those of wide lobes,
 // are summed over all pixels of a level, so that small bright lamps leave no pattern; large ones over the lobe's
-// samples. All threads.
+// samples.
 using CubeFaces = std::array<Image, 6>;
-CubeFaces prefilter_cube(const ResidualLight& light, const LobeFromAbove& lobe, int size);
+CubeFaces prefilter_cube(const ResidualLight& light, const LobeFromAbove& lobe, int size, int threads = 0);
 
 // A size whose pixels are slim enough for a lobe of this width (BrdfLobe::width_x), a power of two.
 int prefiltered_size(double width);
