@@ -82,7 +82,7 @@ fi
 hybrid=()
 for alpha in 0.01 0.04 0.1 0.25; do
   "$shlight" render builtin:sphere --light builtin:sky:elevation=25,azimuth=-60,turbidity=3 --method hybrid \
-    --material "ggx:alpha=$alpha,f0=0.95/0.7/0.35" --camera 30,10,1.1 --size 220x220 -o "$work/hybrid_$alpha.png"
+    --material "ggx:alpha=$alpha,f0=0.95/0.7/0.35" --camera 30,10 --size 220x220 -o "$work/hybrid_$alpha.png"
   hybrid+=("$work/hybrid_$alpha.png")
 done
 for method in hybrid reference; do
