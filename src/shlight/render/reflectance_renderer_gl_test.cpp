@@ -385,21 +385,30 @@ Image make_sunny_picture(Vec3d to_sun) {
   return picture;
 }
 
-// Highlights of the sun, up to grazing ones, against the model itself.
+// Highlights of the sun, up to grazing ones, and what diffuse parts reflect of it, against the model itself, under a
+// light that is turned.
 TEST_F(ReflectanceRendererTest, HybridReflectsTheSunAsTheModelDoes) {
   const Vec3d toward = {0.5, 0.6, 0.3}, to_sun = (1 / std::sqrt(dot(toward, toward))) * toward, to_eye = {0, 0, 1};
-  const Image picture = make_sunny_picture(to_sun);
+  const double turn = 0.7;
+  const Rotation back = rotation_about_y(-turn);
+  const Image picture =
+      make_sunny_picture({dot(back.rows[0], to_sun), dot(back.rows[1], to_sun), dot(back.rows[2], to_sun)});
   const auto light = std::make_unique<ImageLight>(Environment{picture, Layout::kLatLong});
+  RenderParams params = parallel_params(5);
+  params.rotate_light = rotation_about_y(turn);
   // Of the largest radiance. A Ward lobe fades toward the horizon where the grooves of the drawn one do not.
-  const std::pair<const char*, double> cases[] = {{"ggx:alpha=0.05,f0=0.9/0.6/0.3", 0.035},
-                                                  {"ggx:alpha=0.15,f0=0.9/0.6/0.3", 0.015},
-                                                  {"cook-torrance:m=0.15,f0=0.7", 0.015},
-                                                  {"ward:rd=0,rs=0.5,sigma=0.15", 0.055},
-                                                  {"ggx-aniso:ax=0.05,ay=0.2,f0=0.8", 0.05}};
+  const std::pair<const char*, double> cases[] = {
+      {"ggx:alpha=0.05,f0=0.9/0.6/0.3", 0.035},
+      {"ggx:alpha=0.15,f0=0.9/0.6/0.3", 0.015},
+      {"cook-torrance:m=0.15,f0=0.7", 0.015},
+      {"ward:rd=0,rs=0.5,sigma=0.15", 0.055},
+      {"ward:rd=0.6/0.3/0.1,rs=0.02,sigma=0.15", 0.015},
+      {"metallic-roughness:base=0.7/0.3/0.1,metallic=0,roughness=0.4", 0.015},
+      {"ggx-aniso:ax=0.05,ay=0.2,f0=0.8", 0.05}};
   for (const auto& [material, tolerance] : cases) {
     const auto brdf = make_brdf(material);
     const auto surfaces = make_surface_reflectances(sphere_, *brdf, table_params(5), true);
-    const Image image = render_hybrid(sphere_, surfaces, {light->project(5, 0), picture}, parallel_params(5)).radiance;
+    const Image image = render_hybrid(sphere_, surfaces, {light->project(5, 0), picture}, params).radiance;
     const ReflectanceTable table = make_reflectance_table(*brdf, table_params(1));
     double largest = 0, error = 0;
     for (int y = 0; y < kSize; ++y)

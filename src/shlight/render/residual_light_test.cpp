@@ -12,6 +12,7 @@
 #include "shlight/light/builtin_light.h"
 #include "shlight/render/highlight_light.h"
 #include "shlight/render/render_test_util.h"
+#include "shlight/sh/window.h"
 
 namespace shlight {
 namespace {
@@ -133,6 +134,19 @@ TEST(HighlightLight, SunAndCubesHaveTheSameFlux) {
   EXPECT_EQ(shares[2], 1);
   const double all = std::sqrt(4 * std::numbers::pi) * light.coefficients[0].g;
   for (const double flux : fluxes) EXPECT_NEAR(flux, all, 0.01 * all);
+}
+
+TEST(HighlightLight, TheSunIsWindowedAsItsLightIs) {
+  const auto sky = make_builtin_light("sky");
+  const RgbCoefficients raw = sky->project(kBands);
+  const RenderLight light = {apply_window(Window::kHann, 1.0 / kBands, raw), sky->lat_long(1024)};
+  const HighlightLight highlights = make_highlight_light({}, light, kBands);
+  ASSERT_TRUE(highlights.sun);
+  RgbCoefficients expected(kBands);
+  add_sun(*highlights.sun, expected);
+  expected = apply_window(Window::kHann, 1.0 / kBands, expected);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(highlights.sun_coefficients[i].g, expected[i].g, 5e-3 * expected[0].g) << i;
 }
 
 TEST(SlimLobe, SlopesHaveADensity) {
