@@ -8,21 +8,19 @@ namespace shlight::viewer {
 
 inline constexpr std::size_t kShownFrames = 240;
 
-// How long frames take: all of a frame, what of it is not drawing, and the graphics card alone.
+// How long frames take: all of a frame, and what of it is not drawing; and the pictures that came with them, which are
+// drawn beside them: all of drawing, and the graphics card alone.
 class FrameTimes {
  public:
   struct Frame {
     double total_ms = 0, own_ms = 0;
-    std::optional<double> gpu_ms;  // comes later, if ever
+    std::optional<double> picture_ms, gpu_ms;  // where a picture came, and where the driver tells
   };
-  // Keeps so many frames; `knows_gpu`: whether the card's times are going to come.
-  FrameTimes(std::size_t most, bool knows_gpu) : most_(most), knows_gpu_(knows_gpu) {}
+  // Keeps so many frames.
+  explicit FrameTimes(std::size_t most) : most_(most) {}
 
   void add(const Frame& frame);
-  // The card's time of the frame with this number, counted from 0; nothing happens where that is not kept any more.
-  void set_gpu(std::size_t number, double ms);
-  bool knows_gpu() const { return knows_gpu_; }
-  // Of all frames since the beginning: the number of the next one.
+  // Of all frames since the beginning.
   std::size_t count() const { return count_; }
   // The newest last; at most as many as the constructor was told.
   const std::deque<Frame>& kept() const { return kept_; }
@@ -35,7 +33,6 @@ class FrameTimes {
 
  private:
   std::size_t most_;
-  bool knows_gpu_;
   std::deque<Frame> kept_;
   std::size_t count_ = 0;
 };

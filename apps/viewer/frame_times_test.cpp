@@ -9,9 +9,9 @@ namespace shlight::viewer {
 namespace {
 
 TEST(FrameTimes, SummariseWhatIsKept) {
-  FrameTimes times(240, true);
+  FrameTimes times(240);
   EXPECT_EQ(times.summary().max.total_ms, 0);
-  for (int i = 1; i <= 1000; ++i) times.add({static_cast<double>(i), 1, {}});
+  for (int i = 1; i <= 1000; ++i) times.add({static_cast<double>(i), 1, {}, {}});
   EXPECT_EQ(times.count(), 1000u);
   EXPECT_EQ(times.kept().size(), 240u);
   const FrameTimes::Summary s = times.summary();  // of 761 … 1000
@@ -21,19 +21,18 @@ TEST(FrameTimes, SummariseWhatIsKept) {
   EXPECT_EQ(s.max.own_ms, 1);
 }
 
-TEST(FrameTimes, TheCardsTimesComeLaterAndForSomeFramesOnly) {
-  FrameTimes times(10, true);
-  for (int i = 0; i < 30; ++i) times.add({1, 1, {}});
+TEST(FrameTimes, PicturesComeWithSomeFramesOnly) {
+  FrameTimes times(10);
+  times.add({1, 1, 100, 100});  // not kept
+  for (int i = 0; i < 10; ++i) times.add({1, 1, {}, {}});
+  EXPECT_FALSE(times.summary().max.picture_ms);
   EXPECT_FALSE(times.summary().max.gpu_ms);
-  times.set_gpu(19, 100);  // not kept any more
-  times.set_gpu(30, 100);  // not there yet
-  EXPECT_FALSE(times.summary().max.gpu_ms);
-  times.set_gpu(20, 3);
-  times.set_gpu(25, 5);
-  times.set_gpu(29, 4);
-  EXPECT_EQ(times.summary().median.gpu_ms, 4);
+  times.add({1, 1, 7, 3});
+  times.add({1, 1, 9, {}});
+  times.add({1, 1, 8, 5});
+  EXPECT_EQ(times.summary().median.picture_ms, 8);
+  EXPECT_EQ(times.summary().max.picture_ms, 9);
   EXPECT_EQ(times.summary().max.gpu_ms, 5);
-  EXPECT_EQ(times.kept()[5].gpu_ms, 5);
 }
 
 TEST(ProcessAge, GrowsAsTheClockDoes) {

@@ -7,6 +7,7 @@
 
 #include "shlight/brdf/lambert.h"
 #include "shlight/brdf/make_brdf.h"
+#include "shlight/core/error.h"
 #include "shlight/image/tone_map.h"
 #include "shlight/light/builtin_light.h"
 #include "shlight/light/window_name.h"
@@ -19,16 +20,12 @@ namespace {
 
 constexpr int kMapWidth = 384;
 
-// What the balloon is lit by: soft, and bright from everywhere.
-RgbCoefficients balloon_light() {
-  RgbCoefficients light(2);
-  light[0] = {2.6, 2.6, 2.6};
-  light.at(1, -1) = {0.9, 0.9, 0.9};
-  light.at(1, 0) = {0.35, 0.35, 0.35};
-  return light;
-}
-
 }  // namespace
+
+void Insight::draw_on(GlThread& thread) {
+  thread_ = &thread;
+  balloon_painter_ = thread.own(std::make_unique<BalloonPainter>(thread));
+}
 
 void Insight::request(const Subject& subject, const Look& look) {
   const bool diffuse = look.material.empty() || look.method == Method::kIrradiance || look.method == Method::kTransfer;
@@ -49,8 +46,7 @@ void Insight::request(const Subject& subject, const Look& look) {
       fmt::format("{} {} {}", subject.light->key, look.window, look.bands),
       [light = subject.light, look](const auto& publish, const Progress&) {
         auto maps = std::make_shared<Maps>();
-        const RgbCoefficients shaped =
-            apply_named_window(look.window, resize_bands(light->drawn.coefficients, look.bands)).coefficients;
+        const RgbCoefficients shaped = shaped_light(*light, look.window, look.bands);
         const CoefficientLight few(shaped);
         const Image reconstructed = few.lat_long(kMapWidth, worker_threads());
         // A light that is coefficients itself is all of them.
@@ -60,31 +56,34 @@ void Insight::request(const Subject& subject, const Look& look) {
         const double exposure = auto_exposure(light->drawn.coefficients);
         maps->original = make_picture8(original, exposure);
         maps->reconstructed = make_picture8(reconstructed, exposure);
-        maps->balloon = make_balloon(shaped);
+        maps->balloon = std::make_shared<const Scene>(make_balloon(shaped));
         publish(maps);
       },
       false);
 }
 
-void Insight::draw_balloon(const Camera& camera, int width, int height) {
-  if (!balloon_) return;
+// One at a time.
+void Insight::request_balloon(const Camera& camera, int width, int height) {
   const std::string key = fmt::format("{} {} {} {}", camera.azimuth, camera.elevation, width, height);
-  if (key == balloon_key_) return;
+  if (!balloon_ || key == balloon_key_ || awaited_balloon_.valid()) return;
   balloon_key_ = key;
-  const RgbCoefficients light = balloon_light();
-  if (!balloon_renderer_) {
-    balloon_renderer_.emplace(IrradianceRenderer(light));
-    RgbCoefficients grey(1);
-    grey[0] = {0.085, 0.09, 0.1};
-    balloon_background_.emplace(grey);
+  awaited_balloon_ = thread_->run([painter = balloon_painter_, balloon = balloon_, camera, width, height] {
+    return painter->paint(balloon, camera, width, height);
+  });
+}
+
+bool Insight::take_balloon() {
+  if (!awaited_balloon_.valid() || !is_ready(awaited_balloon_)) return false;
+  try {
+    previous_balloon_ = std::exchange(balloon_picture_, awaited_balloon_.get());
+  } catch (const Error&) {  // the card is full: the model's picture, which is larger, tells
+    return false;
   }
-  if (!balloon_frame_ || balloon_frame_->width() != width || balloon_frame_->height() != height)
-    balloon_frame_.emplace(width, height);
-  Camera seen;
-  seen.azimuth = camera.azimuth, seen.elevation = camera.elevation, seen.zoom = 1;
-  const Extent ball;  // balloons have radius 1
-  balloon_frame_->draw({*balloon_, ball, *balloon_renderer_, &*balloon_background_, {}},
-                       {seen, {}, 0, ToneCurve::kFilmic});
+  return true;
+}
+
+bool Insight::busy() const {
+  return error_task_.busy() || map_task_.busy() || (awaited_balloon_.valid() && !is_ready(awaited_balloon_));
 }
 
 void Insight::point(const Subject& subject, const Side& side, const Settings& settings, double x, double y,
@@ -96,7 +95,7 @@ void Insight::point(const Subject& subject, const Side& side, const Settings& se
   const auto picked = pick_vertex(model.content.scene, make_view(settings.camera, model.extent, aspect), x, y);
   if (!picked) return;
   AtPointer at = {picked->vertex, {}, {}};
-  const RgbCoefficients light = rotate(settings.rotate_light, resize_bands(side.light(), transfer->bands));
+  const RgbCoefficients light = rotate(settings.rotate_light, resize_bands(side.picture().light, transfer->bands));
   const auto n = static_cast<std::size_t>(num_coefficients(transfer->bands));
   const auto channels = static_cast<std::size_t>(transfer->channels);
   const auto channel = [&](std::size_t c) {
@@ -124,11 +123,12 @@ bool Insight::update(const Subject& subject, const Look& look, const Camera& cam
     const Maps& maps = **news->result;
     original_.emplace(maps.original);
     reconstructed_.emplace(maps.reconstructed);
-    balloon_.emplace(maps.balloon);
+    balloon_ = maps.balloon;
     balloon_key_.clear();
     changed = true;
   }
-  if (width > 0 && height > 0) draw_balloon(camera, width, height);
+  changed = take_balloon() || changed;
+  if (width > 0 && height > 0) request_balloon(camera, width, height);
   return changed;
 }
 

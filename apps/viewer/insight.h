@@ -1,12 +1,14 @@
 #pragma once
 
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "balloon_painter.h"
 #include "settings.h"
-#include "shlight/render/frame_renderer.h"
+#include "shlight/render/targets.h"
 #include "shlight/truth/band_error.h"
 #include "side.h"
 #include "task.h"
@@ -16,6 +18,8 @@ namespace shlight::viewer {
 // What helps to understand a light: how much is in each band, how far off few bands are, and how what they hold looks.
 class Insight {
  public:
+  // The balloon is drawn there. Called once, before all else; the thread has to outlive this.
+  void draw_on(GlThread& thread);
   // Once a frame where it is seen.
   bool update(const Subject& subject, const Look& look, const Camera& camera, int width, int height);
 
@@ -27,7 +31,7 @@ class Insight {
   const PictureTexture* original() const { return original_ ? &*original_ : nullptr; }
   const PictureTexture* reconstructed() const { return reconstructed_ ? &*reconstructed_ : nullptr; }
   // The balloon, rows from the bottom; 0 until it is there.
-  unsigned balloon() const { return balloon_frame_ ? balloon_frame_->texture() : 0; }
+  unsigned balloon() const { return balloon_picture_ ? balloon_picture_->texture() : 0; }
   // The transfer of the vertex under the pointer, of green where it has colours; empty where there is none.
   struct AtPointer {
     std::size_t vertex = 0;
@@ -36,26 +40,29 @@ class Insight {
   };
   void point(const Subject& subject, const Side& side, const Settings& settings, double x, double y, double aspect);
   const std::optional<AtPointer>& at_pointer() const { return at_pointer_; }
-  bool busy() const { return error_task_.busy() || map_task_.busy(); }
+  bool busy() const;
 
  private:
   struct Maps {
     Image8 original, reconstructed;
-    Scene balloon;
+    std::shared_ptr<const Scene> balloon;
   };
   void request(const Subject& subject, const Look& look);
-  void draw_balloon(const Camera& camera, int width, int height);
+  void request_balloon(const Camera& camera, int width, int height);
+  bool take_balloon();
 
   Task<std::shared_ptr<const std::optional<BandErrors>>> error_task_;
   Task<std::shared_ptr<const Maps>> map_task_;
   std::optional<BandErrors> errors_;
   std::vector<double> energy_;
   std::optional<PictureTexture> original_, reconstructed_;
-  std::optional<GpuScene> balloon_;
-  std::optional<SurfaceRenderer> balloon_renderer_;
-  std::optional<Background> balloon_background_;
-  std::optional<FrameRenderer> balloon_frame_;
-  std::string balloon_key_;
+  GlThread* thread_ = nullptr;
+  std::shared_ptr<BalloonPainter> balloon_painter_;
+  std::shared_ptr<const Scene> balloon_;
+  std::string balloon_key_;  // of the picture that was asked for last
+  std::future<std::shared_ptr<const PictureTarget>> awaited_balloon_;
+  // Before a picture is drawn into again, the window has drawn a frame without it.
+  std::shared_ptr<const PictureTarget> balloon_picture_, previous_balloon_;
   std::optional<AtPointer> at_pointer_;
 };
 

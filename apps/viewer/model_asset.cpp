@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "shlight/light/project_image.h"
+#include "shlight/light/window_name.h"
 #include "shlight/scene/load_scene.h"
 
 namespace shlight::viewer {
@@ -31,6 +32,11 @@ Model load_model(const std::string& name, int serial) {
   return model;
 }
 
+RgbCoefficients shaped_light(const LightAsset& light, const std::string& window, int bands) {
+  const RgbCoefficients first = resize_bands(light.drawn.coefficients, bands);
+  return window == "none" ? first : apply_named_window(window, first).coefficients;
+}
+
 void load_lighting(const std::string& name, int serial, const Task<Lighting>::Publish& publish,
                    const Progress& progress) {
   constexpr int kQuickWidth = 256, kFullWidth = 2048;
@@ -52,7 +58,7 @@ void load_lighting(const std::string& name, int serial, const Task<Lighting>::Pu
     const Image quick = loaded->light->lat_long(kQuickWidth, worker_threads());
     publish_light({project_image({quick, Layout::kLatLong}, kMaxRenderBands, worker_threads()), quick}, false);
     // That is drawn now: for a moment, all processors are for it.
-    be_patient();
+    be_patient(Patience::kComputes);
     constexpr int kMoments = 30;
     for (int i = 0; i < kMoments; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));

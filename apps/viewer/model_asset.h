@@ -49,6 +49,9 @@ struct LightAsset {
 };
 using Lighting = std::shared_ptr<const LightAsset>;
 
+// Its first bands through the window of that name, which some windows take a while for.
+RgbCoefficients shaped_light(const LightAsset& light, const std::string& window, int bands);
+
 // Publishes it with a small background first, then as `render` draws it.
 void load_lighting(const std::string& name, int serial, const Task<Lighting>::Publish& publish,
                    const Progress& progress);

@@ -22,12 +22,14 @@ std::string bytes_text(std::size_t bytes) {
 }
 
 void curves(const FrameTimes& times, float scale) {
-  std::vector<double> totals, gpu;
+  // Of the pictures, what is known best of how long the card takes.
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> totals, pictures;
   for (const FrameTimes::Frame& frame : times.kept()) {
     totals.push_back(frame.total_ms);
-    gpu.push_back(frame.gpu_ms.value_or(std::numeric_limits<double>::quiet_NaN()));
+    pictures.push_back(frame.gpu_ms ? *frame.gpu_ms : frame.picture_ms.value_or(kNone));
   }
-  const std::vector<Curve> both = {{totals, kCool}, {gpu, kAccent}};
+  const std::vector<Curve> both = {{totals, kCool}, {pictures, kAccent}};
   time_curves("##frames", both, kShownFrames, 84 * scale);
 }
 
@@ -53,7 +55,8 @@ void table(const FrameTimes::Summary& s) {
     ImGui::TextDisabled("%s", title);
   }
   row("frame", kCool, s.median.total_ms, s.p99.total_ms, s.max.total_ms);
-  row("GPU", kAccent, s.median.gpu_ms, s.p99.gpu_ms, s.max.gpu_ms);
+  row("picture", kAccent, s.median.picture_ms, s.p99.picture_ms, s.max.picture_ms);
+  if (s.max.gpu_ms) row("GPU", kAccent, s.median.gpu_ms, s.p99.gpu_ms, s.max.gpu_ms);
   row("not drawn", kFaint, s.median.own_ms, s.p99.own_ms, s.max.own_ms);
   ImGui::EndTable();
 }
@@ -69,13 +72,15 @@ void timing_panel(const Studio& studio, const FrameTimes& times, const Layout& l
   ImGui::PopFont();
   ImGui::Dummy({250 * layout.scale, 0});
   curves(times, layout.scale);
-  table(times.summary());
-  if (!times.knows_gpu()) ImGui::TextDisabled("this driver does not tell the GPU's times");
+  const FrameTimes::Summary summary = times.summary();
+  table(summary);
+  if (summary.max.picture_ms && !summary.max.gpu_ms) ImGui::TextDisabled("this driver does not tell the GPU's times");
   if (studio.ready()) {
     ImGui::TextDisabled("%zu triangles, %zu vertices", studio.subject().model->triangles,
                         studio.subject().model->vertices);
     ImGui::TextDisabled("%s for the method, %d x %d pixels",
-                        bytes_text(studio.side(studio.settings.side).bytes()).c_str(), studio.width(), studio.height());
+                        bytes_text(studio.side(studio.settings.side).picture().bytes).c_str(), studio.width(),
+                        studio.height());
   }
   ImGui::End();
 }

@@ -12,11 +12,9 @@
 namespace shlight::viewer {
 namespace {
 
-// Of a frame, for what is brought to the card beside drawing.
-constexpr double kUploadMs = 6, kAllMs = 1e9;
-
 bool needs_tables(const Look& look) {
-  return look.show != Show::kNormals && (look.method == Method::kReflectance || look.method == Method::kHybrid);
+  const bool lit = look.show == Show::kLit || look.show == Show::kDegree;
+  return lit && (look.method == Method::kReflectance || look.method == Method::kHybrid);
 }
 bool needs_transfer(const Look& look) {
   return look.show == Show::kVisibility || (look.show != Show::kNormals && look.method == Method::kTransfer);
@@ -62,28 +60,24 @@ std::string trace_key(const Subject& subject, const Settings& s, const Look& loo
   return key + text_of(s.rotate_light);
 }
 
-std::size_t bytes_of(const std::vector<SurfaceReflectance>& surfaces) {
-  std::size_t floats = 0;
-  for (const SurfaceReflectance& surface : surfaces) {
-    if (surface.plain) floats += surface.plain->values.size();
-    if (surface.tinted) floats += surface.tinted->values.size();
-  }
-  return floats * sizeof(float);
+}  // namespace
+
+Side::~Side() {
+  if (awaited_) *awaited_->stop = true;
 }
 
-}  // namespace
+void Side::draw_on(GlThread& thread) {
+  thread_ = &thread;
+  painter_ = thread.own(std::make_unique<Painter>(thread));
+}
 
 void Side::request_tables(const Subject& subject, const Look& look) {
   const std::string key = table_key(subject, look);
   if ((tables_ && tables_->key == key) || key == cancelled_ || key == table_.wanted()) return;
-  const bool hybrid = look.method == Method::kHybrid;
-  RenderLight light;
-  if (hybrid) light = {shaped_light(subject, look, look.bands), subject.light->drawn.background};
-  if (const int degree = degree_of(look); degree >= 0) light = {keep_degree(light.coefficients, degree), {}};
   table_.request(
       key,
-      [key, model = subject.model, look, hybrid, light = std::move(light)](const auto& publish,
-                                                                           const Progress& progress) {
+      [key, model = subject.model, asset = subject.light, look](const auto& publish, const Progress& progress) {
+        const bool hybrid = look.method == Method::kHybrid;
         ReflectanceTableParams params;
         params.bands = look.bands;
         params.threads = worker_threads();
@@ -94,8 +88,11 @@ void Side::request_tables(const Subject& subject, const Look& look) {
           tables->surfaces = make_surface_reflectances(scene, params, hybrid, progress);
         else
           tables->surfaces = make_surface_reflectances(scene, *make_brdf(look.material), params, hybrid);
-        if (hybrid)
+        if (hybrid) {
+          RenderLight light = {shaped_light(*asset, look.window, look.bands), asset->drawn.background};
+          if (const int degree = degree_of(look); degree >= 0) light = {keep_degree(light.coefficients, degree), {}};
           tables->highlights = make_highlight_light(tables->surfaces, light, look.bands, worker_threads(), progress);
+        }
         publish(tables);
       },
       false);
@@ -140,13 +137,14 @@ void Side::request_shadows(const Subject& subject, const Settings& settings, con
   const std::string key = fmt::format("{} {} {} {} {}{}", subject.model->key, subject.light->key, look.window,
                                       look.bands, degree, text_of(settings.rotate_light));
   if (key == shadow_.wanted()) return;
-  RgbCoefficients light = shaped_light(subject, look, look.bands);
-  if (degree >= 0) light = keep_degree(light, degree);
   shadow_.request(
       key,
-      [model = subject.model, light = rotate(settings.rotate_light, light)](const auto& publish, const Progress&) {
-        publish(
-            std::make_shared<const Shadows>(Shadows{model->key, model->shadow_ratio().under(light, worker_threads())}));
+      [model = subject.model, asset = subject.light, look, degree, rotation = settings.rotate_light](
+          const auto& publish, const Progress&) {
+        RgbCoefficients light = shaped_light(*asset, look.window, look.bands);
+        if (degree >= 0) light = keep_degree(light, degree);
+        publish(std::make_shared<const Shadows>(
+            Shadows{model->key, model->shadow_ratio().under(rotate(rotation, light), worker_threads())}));
       },
       false);
 }
@@ -166,7 +164,11 @@ void Side::request_trace(const Subject& subject, const Settings& settings, const
         PathTraceParams with_brdf = params;
         const auto brdf = look.material.empty() ? nullptr : make_brdf(look.material);
         with_brdf.brdf = brdf.get();
-        trace_ever_finer(*model, *light, with_brdf, publish, progress);
+        const auto publish_with_noise = [&](PathTraceResult result) {
+          const double noise = relative_noise(result);
+          publish(std::make_shared<const Traced>(Traced{std::move(result), noise}));
+        };
+        trace_ever_finer(*model, *light, with_brdf, publish_with_noise, progress);
       },
       true);
 }
@@ -182,18 +184,13 @@ bool Side::take_news() {
     if (!bake->error.empty()) error_ = bake->error;
   }
   if (auto shadow = shadow_.poll()) {
-    if (shadow->result) {
-      shadows_ = std::make_shared<const GpuShadows>((*shadow->result)->of_vertices);
-      shadows_model_ = (*shadow->result)->model;
-      news = true;
-    }
+    if (shadow->result) shadows_ = *shadow->result, news = true;
     if (!shadow->error.empty()) error_ = shadow->error;
   }
   if (auto trace = trace_.poll()) {
     if (trace->result && trace->key == trace_.wanted()) {
-      traced_ = std::move(*trace->result);
+      traced_ = *trace->result;
       traced_key_ = trace->key;
-      noise_ = relative_noise(traced_);
       news = true;
     }
     if (!trace->error.empty()) error_ = trace->error;
@@ -201,101 +198,26 @@ bool Side::take_news() {
   return news;
 }
 
-// Windows that look for how much is enough take a while, so that is kept.
-const RgbCoefficients& Side::shaped_light(const Subject& subject, const Look& look, int bands) {
-  const std::string key = fmt::format("{} {} {}", subject.light->key, look.window, bands);
-  if (key == shaped_key_) return shaped_;
-  const RgbCoefficients first = resize_bands(subject.light->drawn.coefficients, bands);
-  shaped_ = look.window == "none" ? first : apply_named_window(look.window, first).coefficients;
-  shaped_key_ = key;
-  return shaped_;
-}
-
-// Makes a renderer of the look where what it needs is there; of irradiance where there is nothing yet. True where there
-// is a new one to draw with.
-bool Side::build_renderer(const Subject& subject, const Look& look) {
+// Of the look where what it needs is there; of irradiance where there is nothing yet. True where it is a new one.
+bool Side::choose_renderer(const Subject& subject, const Look& look) {
   const bool tables_ready = needs_tables(look) && tables_ && tables_->key == table_key(subject, look);
   const bool transfer_ready = needs_transfer(look) && transfer_ && transfer_->key == bake_key(subject, look);
-  const bool needs_neither = !needs_tables(look) && !needs_transfer(look);
-  const bool fallback = !tables_ready && !transfer_ready && !needs_neither;
-  const bool is_of_model = renderer_ && built_.model == subject.model->key;
-  if (fallback && is_of_model) return false;
+  const bool fallback = !tables_ready && !transfer_ready && (needs_tables(look) || needs_transfer(look));
+  if (fallback && renderer_.model == subject.model) return false;
 
-  Built built = {{}, subject.model->key, look.bands, fallback ? Show::kLit : look.show, 0};
-  built.key = fmt::format("{} {} {}", subject.model->key, look.bands, static_cast<int>(look.show));
-  if (tables_ready)
-    built.key += fmt::format(" {} {}", static_cast<const void*>(tables_.get()), static_cast<int>(look.shade));
-  if (transfer_ready) built.key += fmt::format(" {}", static_cast<const void*>(transfer_.get()));
-  if (upcoming_ && built.key == upcoming_->built.key) return upload(kUploadMs);
-  upcoming_.reset();
-  if (built.key == built_.key) return false;
-
-  const bool lit = look.show == Show::kLit || look.show == Show::kDegree;
-  const LightScale scale = lit || fallback ? light_scale(subject.light->drawn.coefficients) : LightScale{};
-  const RgbCoefficients light = scaled(scale.unit, shaped_light(subject, look, look.bands));
-  if (look.show == Show::kNormals) {
-    install(NormalRenderer(), built);
-  } else if (transfer_ready) {
-    const Baked& content = subject.model->content;
-    built.bytes = transfer_->transfer->coefficients.size() * sizeof(float);
-    if (subject.model->is_baked && content.info.pca) {
-      install(TransferRenderer(*content.info.pca, resize_bands(light, content.info.pca->bands)), built);
-    } else {
-      const int bits = subject.model->is_baked ? content.info.bits : 32;
-      upcoming_ = {TransferRenderer::make_empty(*transfer_->transfer, light, bits), transfer_->transfer, built};
-      return upload(is_of_model ? kUploadMs : kAllMs);  // what is drawn until then has to be of the model
-    }
-  } else if (tables_ready) {
-    built.bytes = bytes_of(tables_->surfaces);
-    install(ReflectanceRenderer(tables_->surfaces, light, look.shade,
-                                tables_->highlights ? &*tables_->highlights : nullptr, scale.unit),
-            built);
-  } else {
-    built.bytes = 3 * sizeof(float) * light.size();
-    install(IrradianceRenderer(light), built);
+  RendererSpec spec = {{}, subject.model, look.bands, fallback ? Show::kLit : look.show, look.shade, {}, {}};
+  spec.key = fmt::format("{} {} {}", subject.model->key, look.bands, static_cast<int>(spec.show));
+  if (tables_ready) {
+    spec.tables = tables_;
+    spec.key += fmt::format(" {} {}", static_cast<const void*>(tables_.get()), static_cast<int>(look.shade));
   }
+  if (transfer_ready) {
+    spec.transfer = transfer_;
+    spec.key += fmt::format(" {}", static_cast<const void*>(transfer_.get()));
+  }
+  if (spec.key == renderer_.key) return false;
+  renderer_ = std::move(spec);
   return true;
-}
-
-bool Side::upload(double ms) {
-  const auto start = std::chrono::steady_clock::now();
-  do {
-    if (!upcoming_->renderer.upload(*upcoming_->transfer)) continue;
-    install(std::move(upcoming_->renderer), upcoming_->built);
-    upcoming_.reset();
-    return true;
-  } while (std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() < ms);
-  return false;
-}
-
-void Side::install(SurfaceRenderer renderer, const Built& built) {
-  begun_.reset();
-  renderer_.emplace(std::move(renderer));
-  built_ = built;
-  light_key_.clear();
-}
-
-// Gives the renderer and the background the light as it is now.
-void Side::refresh_light(const Subject& subject, const Look& look) {
-  const bool lit = built_.show == Show::kLit || built_.show == Show::kDegree;
-  const std::string key =
-      fmt::format("{} {} {} {}", subject.light->key, look.window, built_.show == Show::kDegree ? look.degree : -1, lit);
-  if (key == light_key_) return;
-  light_key_ = key;
-  scale_ = lit ? light_scale(subject.light->drawn.coefficients) : LightScale{};
-  light_ = shaped_light(subject, look, built_.bands);
-  if (built_.show == Show::kDegree) light_ = keep_degree(light_, std::min(look.degree, built_.bands - 1));
-  const RgbCoefficients drawn = lit ? scaled(scale_.unit, light_) : visibility_light(built_.bands);
-  set_radiance(*renderer_, drawn);
-
-  const bool has_picture = subject.light->drawn.background.num_pixels() > 0 && built_.show == Show::kLit;
-  const std::string background_key = has_picture ? subject.light->key : key;
-  if (background_key == background_key_ || !lit) return;
-  background_key_ = background_key;
-  if (has_picture)
-    background_.emplace(subject.light->behind);
-  else
-    background_.emplace(drawn);
 }
 
 bool Side::update(const Subject& subject, const Settings& settings, const Look& look, int width, int height) {
@@ -313,98 +235,69 @@ bool Side::update(const Subject& subject, const Settings& settings, const Look& 
       request_shadows(subject, settings, look);
     else
       shadow_.cancel();
-    changed = build_renderer(subject, look) || changed;
+    changed = choose_renderer(subject, look) || changed;
   }
   return changed;
 }
 
-void Side::show_trace(const Subject& subject, const Settings& settings) {
-  if (!traced_picture_ || traced_picture_->width() != width_ || traced_picture_->height() != height_)
-    traced_picture_.emplace(width_, height_);
-  const LightScale scale = light_scale(subject.light->drawn.coefficients);
-  traced_picture_->set(traced_.radiance, scale.unit);
-  traced_picture_->draw(exposed(scale, {{}, {}, settings.exposure, settings.curve}), settings.curve);
-  showing_trace_ = true;
-}
-
 void Side::begin_picture(const Subject& subject, const Settings& settings, const Look& look, int coarseness) {
-  begun_.reset();
-  const bool reference = look.method == Method::kReference;
-  if (reference && traced_.radiance.num_pixels() > 0) return show_trace(subject, settings);
-  if (reference) {  // until there are paths
-    Look plain = look;
+  PictureRequest request;
+  if (look.method == Method::kReference) {
+    request.traced = traced_;
+    Look plain = look;  // until there are paths
     plain.method = Method::kIrradiance;
     plain.show = Show::kLit;
-    build_renderer(subject, plain);
+    choose_renderer(subject, plain);
   }
-  if (!renderer_) return;
-  refresh_light(subject, look);
-  const int width = std::max(width_ / coarseness, 1), height = std::max(height_ / coarseness, 1);
-  const auto same_size = canvases_.find(coarseness);
-  if (same_size != canvases_.end() &&
-      (same_size->second.frame.width() != width || same_size->second.frame.height() != height)) {
-    // What is shown stays until there is something else.
-    if (shown_canvases_.empty()) shown_canvases_ = std::move(canvases_);
-    canvases_.clear();
+  request.gpu = subject.gpu;
+  request.light = subject.light;
+  request.renderer = renderer_;
+  if (needs_shadows(subject, look) && shadows_ && shadows_->model == subject.model->key) request.shadows = shadows_;
+  request.window = look.window;
+  request.degree = look.degree;
+  request.mark_negative = look.mark_negative;
+  request.background = settings.background;
+  request.frame = {settings.camera, settings.rotate_light, settings.exposure, settings.curve};
+  request.width = width_, request.height = height_;
+  request.coarseness = coarseness;
+
+  if (awaited_) *awaited_->stop = true;
+  auto stop = std::make_shared<std::atomic<bool>>(false);
+  auto picture = thread_->run([painter = painter_, request = std::move(request), stop] {
+    return painter->paint(request, [&](double) { return !*stop; });
+  });
+  awaited_ = Awaited{std::move(picture), std::move(stop), coarseness};
+}
+
+void Side::wait_for_picture(double ms) const {
+  if (awaited_) awaited_->picture.wait_for(std::chrono::duration<double, std::milli>(ms));
+}
+
+bool Side::take_picture() {
+  if (!awaited_ || !is_ready(awaited_->picture)) return false;
+  Awaited awaited = std::move(*awaited_);
+  awaited_.reset();
+  try {
+    previous_ = std::exchange(picture_, awaited.picture.get());
+    return true;
+  } catch (const Error& error) {  // what the card cannot hold: the last picture stays
+    error_ = error.what();
+    return false;
   }
-  Canvas& canvas = canvases_.try_emplace(coarseness, width, height).first->second;
-  const bool lit = built_.show == Show::kLit || built_.show == Show::kDegree;
-  const FrameParams params = {settings.camera, settings.rotate_light, lit ? settings.exposure : 0,
-                              lit ? settings.curve : ToneCurve::kNone};
-  const float bright = look.mark_negative ? static_cast<float>(1 / exposed(scale_, params)) : 0;
-  mark_negative(*renderer_, {bright, 0, bright});
-  GpuScene& scene = subject.gpu->get(needs_tangents(*renderer_), built_.show != Show::kVisibility);
-  const bool has_shadows = needs_shadows(subject, look) && shadows_model_ == subject.model->key;
-  begun_ = {subject.gpu,
-            &scene,
-            settings.background && lit ? &*background_ : nullptr,
-            has_shadows ? shadows_ : nullptr,
-            params,
-            &canvas,
-            coarseness};
-  canvas.parts.begin(scene);
-}
-
-bool Side::draw(double ms) {
-  if (!begun_) return false;
-  auto& [gpu, scene, background, shadows, params, canvas, coarseness] = *begun_;
-  scene->set_shadows(shadows.get());  // the other side draws the same scene with its own
-  const Drawing drawing = {*scene, gpu->asset().extent, *renderer_, background, scale_};
-  const bool is_complete = canvas->parts.draw(*scene, drawing, params, ms);
-  scene->set_shadows(nullptr);
-  if (!is_complete) return false;
-  cost_ = {coarseness, canvas->parts.spent_ms()};
-  frame_ = &canvas->frame;
-  shown_canvases_.clear();
-  radiance_.reset();
-  showing_trace_ = false;
-  begun_.reset();
-  return true;
-}
-
-unsigned Side::texture() const {
-  if (showing_trace_) return traced_picture_->texture();
-  return frame_ ? frame_->texture() : 0;
-}
-
-bool Side::has_picture() const {
-  return showing_trace_ || frame_;
 }
 
 Image8 Side::read_picture() const {
-  return showing_trace_ ? traced_picture_->read_picture() : frame_->read_picture();
+  return thread_->run([target = picture_.target] { return target->read(); }).get();
 }
 
-// Kept, as a converging reference is compared with the same picture again and again.
-const Image& Side::read_radiance() const {
-  if (showing_trace_) return traced_.radiance;
-  if (!radiance_) radiance_ = frame_->read_radiance();
-  return *radiance_;
+Image Side::read_radiance() const {
+  if (picture_.traced) return picture_.traced->result.radiance;
+  return thread_->run([painter = painter_] { return painter->read_radiance(); }).get();
 }
 
 bool Side::settled(const Look& look) const {
-  if (look.method == Method::kReference) return traced_.samples > 0 && traced_key_ == trace_.wanted();
-  return !table_.busy() && !bake_.busy() && !shadow_.busy() && !upcoming_;
+  if (look.method == Method::kReference) return traced_samples() > 0 && traced_key_ == trace_.wanted();
+  return !table_.busy() && !bake_.busy() && !shadow_.busy();
 }
 
 std::string Side::activity() const {
@@ -412,7 +305,7 @@ std::string Side::activity() const {
   const auto works = [](const auto& task) { return task.busy() && !task.wanted().empty(); };
   if (works(bake_)) return fmt::format("baking, {:.0f} %", 100 * bake_.fraction());
   if (works(table_)) return "computing how it reflects";
-  if (works(trace_)) return traced_.samples > 0 ? fmt::format("{} paths a pixel", traced_.samples) : "tracing";
+  if (works(trace_)) return traced_samples() > 0 ? fmt::format("{} paths a pixel", traced_samples()) : "tracing";
   return "";
 }
 

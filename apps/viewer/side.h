@@ -1,17 +1,15 @@
 #pragma once
 
-#include <map>
+#include <atomic>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "gpu_model.h"
 #include "model_asset.h"
+#include "painter.h"
 #include "settings.h"
-#include "shlight/render/frame_in_parts.h"
-#include "shlight/render/highlight_light.h"
-#include "shlight/truth/path_tracer.h"
 #include "task.h"
 
 namespace shlight::viewer {
@@ -23,32 +21,35 @@ struct Subject {
   std::shared_ptr<GpuModel> gpu;
 };
 
-// One side of the window: computes what its look needs beside the window, and draws it.
+// One side of the window: computes what its look needs beside the window, and has it drawn beside the window.
 class Side {
  public:
+  Side() = default;
+  Side(const Side&) = delete;
+  Side& operator=(const Side&) = delete;
+  ~Side();
+
+  // Pictures are drawn there. Called once, before all else; the thread has to outlive this.
+  void draw_on(GlThread& thread);
+
   // Starts and takes in work; true where there is something new to draw.
   bool update(const Subject& subject, const Settings& settings, const Look& look, int width, int height);
-  // Begins a picture of what there is, of that size, or of that size divided by `coarseness`, which takes less time.
+  // Asks for a picture of what there is, of the size of update(), or of that divided by `coarseness`, which takes less
+  // time. One that was asked for before and is not there yet is given up.
   void begin_picture(const Subject& subject, const Settings& settings, const Look& look, int coarseness);
-  // Draws on for about so long; true where a new picture has been completed.
-  bool draw(double ms);
-  // Whether a picture has been begun and is not there yet; how coarse it is.
-  bool drawing() const { return begun_.has_value(); }
-  // What was baked is on its way to the card, a part in each frame.
-  bool uploading() const { return upcoming_.has_value(); }
-  int drawing_coarseness() const { return begun_ ? begun_->coarseness : 0; }
-  // How long the last picture took, in ms, and how coarse it is.
-  struct Cost {
-    int coarseness = 1;
-    double ms = 0;
-  };
-  const Cost& cost() const { return cost_; }
+  // Waits at most so long for it.
+  void wait_for_picture(double ms) const;
+  // True where it has come since it was asked for.
+  bool take_picture();
+  // Whether a picture has been asked for and not been taken yet; how coarse that is.
+  bool drawing() const { return awaited_.has_value(); }
+  int drawing_coarseness() const { return awaited_ ? awaited_->coarseness : 0; }
 
-  // Of the picture drawn last: RGBA8, rows from the bottom; 0 where there is none.
-  unsigned texture() const;
-  bool has_picture() const;  // needed by these
+  // The last one that was taken.
+  bool has_picture() const { return picture_.target != nullptr; }  // needed by what follows
+  const Picture& picture() const { return picture_; }
   Image8 read_picture() const;
-  const Image& read_radiance() const;
+  Image read_radiance() const;  // of what is drawn no more while another picture is drawn
 
   // Whether what is drawn is what the look asks for, as good as it gets.
   bool settled(const Look& look) const;
@@ -60,104 +61,43 @@ class Side {
   // What went wrong since the last call.
   std::optional<std::string> take_error();
 
-  int traced_samples() const { return traced_.samples; }
-  double traced_noise() const { return noise_; }      // relative
-  std::size_t bytes() const { return built_.bytes; }  // of what the method needs beside the scene
+  int traced_samples() const { return traced_ ? traced_->result.samples : 0; }
+  double traced_noise() const { return traced_ ? traced_->noise : 0; }  // relative
   const Transfer* transfer() const { return transfer_ ? transfer_->transfer.get() : nullptr; }
-  const RgbCoefficients& light() const { return light_; }  // as it was last drawn, in its own unit
 
  private:
-  struct Tables {
-    std::string key;
-    std::vector<SurfaceReflectance> surfaces;
-    std::optional<HighlightLight> highlights;
-  };
-  struct BakedTransfer {
-    std::string key;
-    std::shared_ptr<const Transfer> transfer;
-    bool final = false;
-  };
-
-  struct Shadows {
-    std::string model;
-    std::vector<Vec3f> of_vertices;
-  };
-  // What a renderer was made for.
-  struct Built {
-    std::string key, model;
-    int bands = 0;
-    Show show = Show::kLit;
-    std::size_t bytes = 0;
-  };
-
   void request_tables(const Subject& subject, const Look& look);
   void request_bake(const Subject& subject, const Look& look);
   void request_shadows(const Subject& subject, const Settings& settings, const Look& look);
   void request_trace(const Subject& subject, const Settings& settings, const Look& look);
   bool take_news();
-  bool build_renderer(const Subject& subject, const Look& look);
-  bool upload(double ms);
-  void install(SurfaceRenderer renderer, const Built& built);
-  const RgbCoefficients& shaped_light(const Subject& subject, const Look& look, int bands);
-  void refresh_light(const Subject& subject, const Look& look);
-  void show_trace(const Subject& subject, const Settings& settings);
+  bool choose_renderer(const Subject& subject, const Look& look);
 
   Task<std::shared_ptr<const Tables>> table_;
   Task<std::shared_ptr<const BakedTransfer>> bake_;
   Task<std::shared_ptr<const Shadows>> shadow_;
-  Task<PathTraceResult> trace_;
+  Task<std::shared_ptr<const Traced>> trace_;
   std::string cancelled_;  // the key of a bake that is not to go on
   std::optional<std::string> error_;
 
   std::shared_ptr<const Tables> tables_;
   std::shared_ptr<const BakedTransfer> transfer_;
-  Built built_;
-  // What the newest Shadows are on the card.
-  std::shared_ptr<const GpuShadows> shadows_;
-  std::string shadows_model_;
-  std::string light_key_, background_key_;
-  std::optional<SurfaceRenderer> renderer_;
-  // A renderer whose transfer is still on its way to the card; renderer_ draws until it is there.
-  struct Upcoming {
-    TransferRenderer renderer;
-    std::shared_ptr<const Transfer> transfer;
-    Built built;
-  };
-  std::optional<Upcoming> upcoming_;
-  std::string shaped_key_;
-  RgbCoefficients shaped_;  // light as it is windowed
-  std::optional<Background> background_;
-  // What is drawn into.
-  struct Canvas {
-    FrameRenderer frame;
-    FrameInParts parts;
-    Canvas(int width, int height) : frame(width, height), parts(frame) {}
-  };
-  std::map<int, Canvas> canvases_;         // by coarseness
-  std::map<int, Canvas> shown_canvases_;   // of another size, that frame_ may be among
-  FrameRenderer* frame_ = nullptr;         // that was completed last
-  mutable std::optional<Image> radiance_;  // of that, where it was asked for
-  // A picture on its way: all that it was begun with.
-  struct Begun {
-    std::shared_ptr<GpuModel> gpu;
-    GpuScene* scene;
-    const Background* background;
-    std::shared_ptr<const GpuShadows> shadows;
-    FrameParams params;
-    Canvas* canvas;
-    int coarseness;
-  };
-  std::optional<Begun> begun_;
-  Cost cost_;
-  RgbCoefficients light_;
-  LightScale scale_;
-
-  PathTraceResult traced_;
+  std::shared_ptr<const Shadows> shadows_;
+  std::shared_ptr<const Traced> traced_;
   std::string traced_key_;
-  double noise_ = 0;
-  std::optional<RadiancePicture> traced_picture_;
-  bool showing_trace_ = false;
+  RendererSpec renderer_;  // of the newest of these that the look asks for
   int width_ = 0, height_ = 0;
+
+  GlThread* thread_ = nullptr;
+  std::shared_ptr<Painter> painter_;
+  struct Awaited {
+    std::future<Picture> picture;
+    std::shared_ptr<std::atomic<bool>> stop;
+    int coarseness = 1;
+  };
+  std::optional<Awaited> awaited_;
+  // Before a picture is drawn into again, the window has drawn a frame without it.
+  Picture picture_, previous_;
 };
 
 }  // namespace shlight::viewer

@@ -26,9 +26,30 @@ std::string drawing_key(const Settings& s, const Look& look) {
 
 Studio::Studio(const Settings& start, bool remember) : settings(start), initial_(start), recent_(remember) {}
 
+void Studio::draw_on(GlThread& thread) {
+  thread_ = &thread;
+  for (Side& side : sides_) side.draw_on(thread);
+}
+
 void Studio::load() {
-  take_model();
-  take_light();
+  if (settings.model != model_wanted_) {
+    model_wanted_ = settings.model;
+    model_task_.request(
+        fmt::format("{} {}", ++serial_, settings.model),
+        [name = settings.model, serial = serial_](const auto& publish, const Progress&) {
+          publish(load_model(name, serial));
+        },
+        true);
+  }
+  if (settings.light != light_wanted_) {
+    light_wanted_ = settings.light;
+    light_task_.request(
+        fmt::format("{} {}", ++serial_, settings.light),
+        [name = settings.light, serial = serial_](const auto& publish, const Progress& progress) {
+          load_lighting(name, serial, publish, progress);
+        },
+        true);
+  }
 }
 
 void Studio::open(const std::string& path) {
@@ -45,15 +66,6 @@ void Studio::reset() {
 }
 
 void Studio::take_model() {
-  if (settings.model != model_wanted_) {
-    model_wanted_ = settings.model;
-    model_task_.request(
-        fmt::format("{} {}", ++serial_, settings.model),
-        [name = settings.model, serial = serial_](const auto& publish, const Progress&) {
-          publish(load_model(name, serial));
-        },
-        true);
-  }
   auto news = model_task_.poll();
   if (!news) return;
   if (!news->error.empty()) {
@@ -61,7 +73,7 @@ void Studio::take_model() {
     if (subject_.model) settings.model = model_wanted_ = subject_.model->name;  // the old one stays
   } else if (news->result) {
     subject_.model = *news->result;
-    subject_.gpu = std::make_shared<GpuModel>(subject_.model);
+    subject_.gpu = thread_->own(std::make_unique<GpuModel>(subject_.model));
     stale_ = {true, true};
     recent_.add_model(subject_.model->name);
     for (const std::string& warning : subject_.model->content.scene.warnings) say(warning);
@@ -75,15 +87,6 @@ void Studio::take_model() {
 }
 
 void Studio::take_light() {
-  if (settings.light != light_wanted_) {
-    light_wanted_ = settings.light;
-    light_task_.request(
-        fmt::format("{} {}", ++serial_, settings.light),
-        [name = settings.light, serial = serial_](const auto& publish, const Progress& progress) {
-          load_lighting(name, serial, publish, progress);
-        },
-        true);
-  }
   auto news = light_task_.poll();
   if (!news) return;
   if (!news->error.empty()) {
@@ -113,34 +116,32 @@ void Studio::request_difference() {
   const std::string key =
       fmt::format("{} {} {}", drawn_key_, doubling(sides_[0].traced_samples()), doubling(sides_[1].traced_samples()));
   if (key == difference_.wanted()) return;
-  const Image &a = sides_[0].read_radiance(), &b = sides_[1].read_radiance();
-  if (a.width == b.width && a.height == b.height) difference_.request(key, a, b);
+  Image a = sides_[0].read_radiance(), b = sides_[1].read_radiance();
+  if (a.width == b.width && a.height == b.height) difference_.request(key, std::move(a), std::move(b));
 }
 
 void Studio::begin_picture(int which) {
   const auto i = static_cast<std::size_t>(which);
   stale_[i] = false;
   drawn_coarseness_[i] = coarseness_;
-  try {
-    sides_[i].begin_picture(subject_, settings, settings.looks[i], coarseness_);
-  } catch (const Error& error) {
-    say(error.what(), true);
-  }
+  sides_[i].begin_picture(subject_, settings, settings.looks[i], coarseness_);
 }
 
-bool Studio::draw_side(int which, double ms) {
+bool Studio::take_picture(int which) {
   Side& side = sides_[static_cast<std::size_t>(which)];
-  if (!side.draw(ms)) return false;
-  cost_ms_[side.cost().coarseness] = side.cost().ms;
+  if (!side.take_picture()) return false;
+  const Picture& picture = side.picture();
+  cost_ms_[picture.coarseness] = picture.ms;
+  if (!picture_time_) picture_time_.emplace();
+  picture_time_->ms += picture.ms;
+  if (picture.gpu_ms) picture_time_->gpu_ms = picture_time_->gpu_ms.value_or(0) + *picture.gpu_ms;
   return true;
 }
 
 bool Studio::drawing() const {
   if (!ready()) return false;
   for (const int which : {0, 1})
-    if (settings.shows(which) &&
-        (side(which).drawing() || side(which).uploading() || stale_[static_cast<std::size_t>(which)]))
-      return true;
+    if (settings.shows(which) && (side(which).drawing() || stale_[static_cast<std::size_t>(which)])) return true;
   return false;
 }
 
@@ -166,17 +167,21 @@ int Studio::choose_coarseness(bool moving) const {
 // For who needs the picture now.
 void Studio::draw_finely() {
   if (coarseness_ == 1 && !drawing()) return;
-  constexpr double kAll = 1e9;  // ms
+  constexpr double kHour = 3.6e6;  // ms
   coarseness_ = 1;
+  for (const int which : {0, 1})
+    if (settings.shows(which)) begin_picture(which);
   for (const int which : {0, 1}) {
-    if (!settings.shows(which)) continue;
-    begin_picture(which);
-    draw_side(which, kAll);
+    side(which).wait_for_picture(kHour);
+    take_picture(which);
   }
 }
 
-bool Studio::update(int width, int height, double ms) {
+bool Studio::update(int width, int height) {
   load();
+  take_model();
+  take_light();
+  picture_time_.reset();
   const auto now = std::chrono::steady_clock::now();
   bool changed = std::erase_if(messages_, [now](const Message& message) { return message.until < now; }) > 0;
   if (!ready() || width < 1 || height < 1) return changed;
@@ -189,11 +194,7 @@ bool Studio::update(int width, int height, double ms) {
   for (const int which : {0, 1}) {
     const auto i = static_cast<std::size_t>(which);
     if (!settings.shows(which)) continue;
-    try {
-      if (sides_[i].update(subject_, settings, settings.looks[i], width, height)) stale_[i] = true;
-    } catch (const Error& error) {
-      say(error.what(), true);  // what the card cannot hold: the last picture stays
-    }
+    if (sides_[i].update(subject_, settings, settings.looks[i], width, height)) stale_[i] = true;
     if (const auto error = sides_[i].take_error()) say(*error, true);
     const std::string side_key = drawing_key(settings, settings.looks[i]) + " " + subject_.light->key;
     moved[i] = side_key != side_keys_[i];
@@ -204,19 +205,24 @@ bool Studio::update(int width, int height, double ms) {
   if (moved[0] || moved[1]) moved_at_ = now;
   const bool moving = std::chrono::duration<double>(now - moved_at_).count() < kStill;
   coarseness_ = choose_coarseness(moving);
-  // What takes long is drawn over several frames, so that the window goes on meanwhile. A picture that was begun is
-  // completed even if it is not of the newest moment, or there would be none while something moves; but not a fine one
-  // where a coarse one does.
-  const bool both = settings.compare != Compare::kOne && sides_[0].drawing() && sides_[1].drawing();
+  // A picture that was begun is completed even if it is not of the newest moment, or there would be none while
+  // something moves; but not a fine one where a coarse one does.
   for (const int which : {0, 1}) {
     const auto i = static_cast<std::size_t>(which);
     if (!settings.shows(which)) continue;
+    changed = take_picture(which) || changed;
     if (moved[i] || resized || drawn_coarseness_[i] != coarseness_) stale_[i] = true;
-    if (stale_[i] && (!sides_[i].drawing() || sides_[i].drawing_coarseness() < coarseness_)) {
-      begin_picture(which);
-      changed = true;
+    if (stale_[i] && (!sides_[i].drawing() || sides_[i].drawing_coarseness() < coarseness_)) begin_picture(which);
+  }
+  // What is drawn soon is of this frame. While something moves, there are less frames without a new picture, which take
+  // processors from it.
+  constexpr double kSoon = 8;  // ms
+  if (moving || expected_ms(coarseness_) < kSoon) {
+    for (const int which : {0, 1}) {
+      if (!settings.shows(which)) continue;
+      side(which).wait_for_picture(kSoon);
+      changed = take_picture(which) || changed;
     }
-    changed = draw_side(which, both ? ms / 2 : ms) || changed;
   }
   drawn_key_ = key;
   if (settings.compare == Compare::kDifference)

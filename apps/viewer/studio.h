@@ -22,16 +22,18 @@ class Studio {
 
   Settings settings;
 
-  // Begins to load what update() is going to ask for. Needs no context.
+  // Begins to load what update() is going to ask for.
   void load();
+  // Pictures are drawn there. Called once, before update(); the thread has to outlive this.
+  void draw_on(GlThread& thread);
   // Opens a file as what it seems to be: a model, a baked file or a light.
   void open(const std::string& path);
   // Everything but model and light as it was in the beginning.
   void reset();
 
-  // Once a frame: takes in what has been computed, asks for what the settings need, and draws where anything has
-  // changed, for about `ms`. The picture has this size. True where there is something new to see.
-  bool update(int width, int height, double ms);
+  // Once a frame: takes in what has been computed and drawn, and asks for what the settings need, also for pictures, of
+  // this size. True where there is something new to see.
+  bool update(int width, int height);
 
   bool ready() const { return subject_.model && subject_.light; }
   // There is something to see of all that is shown.
@@ -39,7 +41,7 @@ class Studio {
   // Nothing is being loaded or computed that the settings ask for; a reference counts as done with this many paths.
   bool settled(int samples) const;
   bool busy() const;
-  // A picture is on its way, and is drawn a part in each frame.
+  // A picture is on its way.
   bool drawing() const;
 
   const Subject& subject() const { return subject_; }
@@ -53,6 +55,13 @@ class Studio {
   int height() const { return height_; }
   bool loading_model() const { return model_task_.busy(); }
   bool loading_light() const { return light_task_.busy(); }
+
+  // How long the pictures took that came with the last update(), together; nothing where there were none.
+  struct PictureTime {
+    double ms = 0;
+    std::optional<double> gpu_ms;  // of which the graphics card worked, where the driver tells
+  };
+  const std::optional<PictureTime>& picture_time() const { return picture_time_; }
 
   // The picture as shown, of one side or both; and as linear radiance. Throw Error before anything is drawn.
   Image8 picture();
@@ -74,7 +83,7 @@ class Studio {
   void take_light();
   void request_difference();
   void begin_picture(int which);
-  bool draw_side(int which, double ms);
+  bool take_picture(int which);
   double expected_ms(int coarseness) const;
   int choose_coarseness(bool moving) const;
   void draw_finely();
@@ -83,6 +92,7 @@ class Studio {
   Recent recent_;
   Task<Model> model_task_ = Task<Model>(false);
   Task<Lighting> light_task_ = Task<Lighting>(false);
+  GlThread* thread_ = nullptr;
   int serial_ = 0;
   std::string model_wanted_, light_wanted_;
   Subject subject_;
@@ -95,6 +105,7 @@ class Studio {
   int coarseness_ = 1;
   std::array<int, 2> drawn_coarseness_ = {1, 1};
   std::map<int, double> cost_ms_;  // of a picture, by coarseness
+  std::optional<PictureTime> picture_time_;
   std::chrono::steady_clock::time_point moved_at_;
   int width_ = 0, height_ = 0;
   std::deque<Message> messages_;

@@ -23,10 +23,11 @@ inline int worker_threads() {
   return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()) + 1) / 2;
 }
 
-// From now on, the calling thread leaves processors to the window and to what draws it where those want them.
-inline void be_patient() {
-  constexpr int kNice = 5;
-  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);
+// From now on, the calling thread leaves processors to threads of less patience, the window's above all, where those
+// want them: threads that draw pictures, and what goes on beside the window.
+enum class Patience { kDraws = 6, kComputes = 15 };
+inline void be_patient(Patience patience) {
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), static_cast<int>(patience));
 }
 
 // Long work on a thread of its own, one at a time, of which only the newest request counts: a frame never waits for it.
@@ -104,7 +105,7 @@ class Task {
     job_ = std::make_unique<Job>();
     job_->key = wanted_;
     job_->thread = std::thread([job = job_.get(), work = std::exchange(next_, {}), patient = patient_] {
-      if (patient) be_patient();
+      if (patient) be_patient(Patience::kComputes);
       try {
         work(
             [job](Result result) {

@@ -15,6 +15,7 @@
 
 #include "command_line.h"
 #include "frame_times.h"
+#include "gl_thread.h"
 #include "insight.h"
 #include "navigation.h"
 #include "panels.h"
@@ -25,7 +26,6 @@
 #include "shlight/image/image_io.h"
 #include "shlight/light/coefficient_file.h"
 #include "shlight/render/context.h"
-#include "shlight/render/gpu_timer.h"
 #include "studio.h"
 #include "window.h"
 
@@ -42,8 +42,15 @@ double ms_since(Clock::time_point start) {
 
 class Viewer {
  public:
-  Viewer(const ViewerParams& params, Script script, Window& window, std::unique_ptr<Studio> studio)
-      : params_(params), script_(std::move(script)), window_(window), owned_studio_(std::move(studio)) {}
+  Viewer(const ViewerParams& params, Script script, Window& window, GlThread& thread, std::unique_ptr<Studio> studio)
+      : params_(params),
+        script_(std::move(script)),
+        window_(window),
+        thread_(thread),
+        owned_studio_(std::move(studio)) {
+    studio_.draw_on(thread);
+    insight_.draw_on(thread);
+  }
 
   void run() {
     while (!window_.closed() && !(params_.asked_to_stop && params_.asked_to_stop())) {
@@ -58,11 +65,12 @@ class Viewer {
       const bool waits = scripted && (script_.ended() || script_.line().words[0] == "wait");
       const bool busy = scripted || studio_.busy() || insight_.busy();
       const bool seen = window_.width() > 0 && window_.height() > 0;  // else it is minimised
-      const double wait = !seen                                                     ? 0.1
-                          : !studio_.ready()                                        ? 0.004
-                          : awake_ > 0 || studio_.drawing() || (scripted && !waits) ? 0
-                          : busy                                                    ? 0.06
-                                                                                    : 0.25;
+      // A picture that comes ends the wait for it.
+      const double wait = !seen                                ? 0.1
+                          : !studio_.ready()                   ? 0.004
+                          : awake_ > 0 || (scripted && !waits) ? 0
+                          : busy                               ? 0.06
+                                                               : 0.25;
       window_.poll(wait);
       for (const std::string& path : window_.take_dropped()) studio_.open(path);
       if (window_.take_events()) awake_ = kAfterEvent;
@@ -74,11 +82,10 @@ class Viewer {
   void frame() {
     const int width = window_.width(), height = window_.height();
     const auto start = Clock::now();
-    gpu_timer_.begin(times_.count());
     const Layout layout = make_layout(studio_.settings, width, height, window_.scale());
     const auto picture_width = static_cast<int>(std::max(layout.picture_width(), 1.0f));
     const auto before_update = Clock::now();
-    bool changed = studio_.update(picture_width, height, drawing_ms());
+    bool changed = studio_.update(picture_width, height);
     if (layout.right > 0 && studio_.ready()) {
       const auto balloon = static_cast<int>(layout.right - 28 * layout.scale);
       changed = insight_.update(studio_.subject(), studio_.settings.look(), studio_.settings.camera, balloon,
@@ -87,7 +94,6 @@ class Viewer {
     }
     set_title();
     const auto before_panels = Clock::now();
-    const double update_ms = std::chrono::duration<double, std::milli>(before_panels - before_update).count();
     window_.begin_frame();
     point_out(layout);
     keys();
@@ -97,28 +103,17 @@ class Viewer {
     ImGui::EndFrame();
     const double own =
         std::chrono::duration<double, std::milli>(before_update - start).count() + ms_since(before_panels);
+    thread_.begin_window_frame();
     window_.end_frame();
-    gpu_timer_.end();
     screenshot_now();
     window_.show();
+    thread_.end_window_frame();
     grant_wishes();
     if (studio_.has_picture() && !first_picture_ms_) first_picture_ms_ = process_age_ms();
-    // Forgets slowly that it once took longer.
-    constexpr double kForget = 0.1;
-    beside_ms_ = std::max(ms_since(start) - update_ms, (1 - kForget) * beside_ms_);
-    const FrameTimes::Frame times = {ms_since(start), own, {}};
+    FrameTimes::Frame times = {ms_since(start), own, {}, {}};
+    if (const auto& picture = studio_.picture_time()) times.picture_ms = picture->ms, times.gpu_ms = picture->gpu_ms;
     times_.add(times), reported_.add(times);
-    while (const auto gpu = gpu_timer_.take())
-      times_.set_gpu(gpu->number, gpu->ms), reported_.set_gpu(gpu->number, gpu->ms);
     awake_ = changed ? 2 : std::max(awake_ - 1, 0);
-  }
-
-  // How long this frame may draw pictures: what is left of a frame's time after all else; where that is not much, so
-  // long that pictures do not take several times as long as they have to. The first one is to be there soon.
-  double drawing_ms() const {
-    constexpr double kFrame = 26, kMost = 24, kFirst = 150, kShare = 0.5;
-    if (!first_picture_ms_) return kFirst;
-    return std::max(std::min(kFrame - beside_ms_, kMost), kShare * beside_ms_);
   }
 
   void set_title() {
@@ -223,7 +218,7 @@ class Viewer {
       if (wishes.save_exr) save_picture(free_name(".exr"));
       if (wishes.export_coefficients) {
         const auto path = free_name(".json");
-        save_coefficients(path, studio_.side(studio_.settings.side).light());
+        save_coefficients(path, studio_.side(studio_.settings.side).picture().light);
         studio_.say(path.string() + " saved");
       }
     } catch (const Error& error) {
@@ -300,7 +295,7 @@ class Viewer {
     } else if (what == "command") {
       write_file(line.rest, command() + "\n");
     } else if (what == "export") {
-      save_coefficients(line.rest, studio_.side(s.side).light());
+      save_coefficients(line.rest, studio_.side(s.side).picture().light);
     } else if (what == "report") {
       write_file(line.rest, report());
     }
@@ -347,6 +342,8 @@ class Viewer {
         {"frames_since_report", reported_.kept().size()},
         {"frame_ms", three([](const FrameTimes::Frame& f) { return f.total_ms; })},
         {"own_ms", three([](const FrameTimes::Frame& f) { return f.own_ms; })},
+        {"picture_ms",
+         times.max.picture_ms ? three([](const FrameTimes::Frame& f) { return *f.picture_ms; }) : nullptr},
         {"gpu_ms", times.max.gpu_ms ? three([](const FrameTimes::Frame& f) { return *f.gpu_ms; }) : nullptr},
         {"resident_bytes", resident_memory()},
         {"width", studio_.width()},
@@ -357,7 +354,7 @@ class Viewer {
         {"method", to_text(studio_.settings.look().method)},
         {"activity", side.activity()},
         {"triangles", studio_.ready() ? studio_.subject().model->triangles : 0},
-        {"method_bytes", side.bytes()},
+        {"method_bytes", side.picture().bytes},
         {"paths", side.traced_samples()},
         {"last_error", studio_.last_error()},
         {"gl_renderer", gl_renderer()}};
@@ -368,12 +365,11 @@ class Viewer {
   ViewerParams params_;
   Script script_;
   Window& window_;
+  GlThread& thread_;
   std::unique_ptr<Studio> owned_studio_;
   Studio& studio_ = *owned_studio_;
   Insight insight_;
-  GpuTimer gpu_timer_;
-  FrameTimes times_ = FrameTimes(kShownFrames, gpu_timer_.available());
-  FrameTimes reported_ = FrameTimes(kReportedFrames, gpu_timer_.available());
+  FrameTimes times_ = FrameTimes(kShownFrames), reported_ = FrameTimes(kReportedFrames);
   Wishes wishes_;
   std::map<int, std::function<void()>> key_actions_;
   int pressed_ = 0;   // by a script
@@ -383,7 +379,6 @@ class Viewer {
   bool taken_ = false;
   int awake_ = 3;  // frames to draw at once
   std::optional<double> first_picture_ms_;
-  double beside_ms_ = 0;  // of a frame, beside pictures
 };
 
 }  // namespace
@@ -395,7 +390,8 @@ void run_viewer(const ViewerParams& params) {
   auto studio = std::make_unique<Studio>(params.settings, params.script.empty() && params.screenshot.empty());
   studio->load();
   Window window(params.width, params.height, params.scale);
-  Viewer(params, std::move(script), window, std::move(studio)).run();
+  GlThread thread({[&window] { window.make_second_context_current(); }, Window::release_context, Window::wake});
+  Viewer(params, std::move(script), window, thread, std::move(studio)).run();
 }
 
 }  // namespace shlight::viewer

@@ -60,9 +60,9 @@ void draw_pictures(const Studio& studio, const Rect& rect, float scale) {
   const Settings& s = studio.settings;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const auto picture = [&](int which, float from, float to) {
-    const unsigned texture = studio.side(which).texture();
-    if (texture == 0 || to <= from) return;
-    draw.AddImage(id_of(texture), {rect.min.x + from * rect.width(), rect.min.y},
+    const Side& side = studio.side(which);
+    if (!side.has_picture() || to <= from) return;
+    draw.AddImage(id_of(side.picture().target->texture()), {rect.min.x + from * rect.width(), rect.min.y},
                   {rect.min.x + to * rect.width(), rect.max.y}, {from, 1}, {to, 0});
   };
   const float margin = 12 * scale;

@@ -55,6 +55,9 @@ Window::Window(int width, int height, double scale) {
   require_display();
   window_ = open_window(width, height);
   if (!window_) throw_no_window();
+  glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+  hidden_ = glfwCreateWindow(1, 1, "shlight", nullptr, window_);
+  if (!hidden_) throw_no_window();
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
   glfwSetWindowUserPointer(window_, this);
@@ -88,6 +91,7 @@ Window::~Window() {
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
+  glfwDestroyWindow(hidden_);
   glfwDestroyWindow(window_);
   glfwTerminate();
 }
@@ -174,6 +178,18 @@ void Window::end_frame() {
 
 void Window::show() {
   glfwSwapBuffers(window_);
+}
+
+void Window::wake() {
+  glfwPostEmptyEvent();
+}
+
+void Window::make_second_context_current() const {
+  glfwMakeContextCurrent(hidden_);
+}
+
+void Window::release_context() {
+  glfwMakeContextCurrent(nullptr);
 }
 
 }  // namespace shlight::viewer

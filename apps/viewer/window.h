@@ -36,6 +36,13 @@ class Window {
   // Whether anything has happened to the window or the pointer since the last call.
   bool take_events();
 
+  // From any thread: poll() waits no longer.
+  static void wake();
+
+  // A second context, for one other thread to draw with: it shares textures, buffers and programs with the window's.
+  void make_second_context_current() const;
+  static void release_context();
+
   // Between these, the interface is described with ImGui; end_frame draws it. show() puts it on the screen.
   void begin_frame();
   void end_frame();
@@ -48,6 +55,7 @@ class Window {
 
  private:
   GLFWwindow* window_ = nullptr;
+  GLFWwindow* hidden_ = nullptr;  // GLFW's contexts come with windows
   double scale_ = 1;
   std::vector<std::string> dropped_;
   bool events_ = true;

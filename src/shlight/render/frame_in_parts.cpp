@@ -13,7 +13,7 @@ namespace {
 // Of fewer triangles, all are sent to the device for each group of rows; more are sent once, in groups.
 constexpr std::size_t kManyTriangles = 4096;
 // The first share of what was never drawn: it may take long.
-constexpr double kFirstShare = 1.0 / 16;
+constexpr double kFirstShare = 1.0 / 32;
 constexpr double kSmallestShare = 1.0 / 128;
 
 // The whole number nearest to a share of `count`; both ends of a share are rounded alike, so that shares fit together.
@@ -83,7 +83,8 @@ void FrameInParts::draw_share(GpuScene& scene, const Drawing& drawing, const Fra
   glDisable(GL_SCISSOR_TEST);
 }
 
-double FrameInParts::draw_group(GpuScene& scene, const Drawing& drawing, const FrameParams& frame, double ms) {
+bool FrameInParts::draw(GpuScene& scene, const Drawing& drawing, const FrameParams& frame, double ms) {
+  if (!going_on()) return true;
   const auto start = std::chrono::steady_clock::now();
   const std::size_t first = step_;
   double expected = 0, share = 0;
@@ -106,7 +107,7 @@ double FrameInParts::draw_group(GpuScene& scene, const Drawing& drawing, const F
     // What is not known is drawn alone.
   } while (steps_[first].ms >= 0 && going_on() && done_ == 0 && steps_[step_].ms >= 0 && expected < ms);
   draw_triangles(scene, drawing, frame, whole);
-  renderer_->finish();
+  gl::finish();
   const double took = ms_since(start);
 
   // Of one step, its time is known now; several were all as much slower or faster as together.
@@ -117,15 +118,7 @@ double FrameInParts::draw_group(GpuScene& scene, const Drawing& drawing, const F
   else
     for (std::size_t i = first; i <= last; ++i)
       steps_[i].ms *= std::clamp(took / std::max(expected, kLeast), 1 / kMostChange, kMostChange);
-  return took;
-}
-
-bool FrameInParts::draw(GpuScene& scene, const Drawing& drawing, const FrameParams& frame, double ms) {
-  // In a few groups, so that one that takes longer than expected takes nothing but its own time longer.
-  constexpr double kNearlyAll = 0.8, kGroups = 4;
-  double spent = 0;
-  while (going_on() && spent < kNearlyAll * ms) spent += draw_group(scene, drawing, frame, ms / kGroups);
-  spent_ms_ += spent;
+  spent_ms_ += took;
   return !going_on();
 }
 

@@ -18,9 +18,8 @@ class FrameInParts {
 
   // Begins a frame; what was begun is forgotten.
   void begin(const GpuScene& scene);
-  // Draws on, for about so long or until the picture is there, and waits until the device has done it; draws something
-  // if `ms` is above 0. `drawing` and `frame` are the same for all parts of a frame, and `scene` is drawing.scene. True
-  // once the picture is there.
+  // Draws on, for about so long or until the picture is there, and waits until the device has done it. `drawing` and
+  // `frame` are the same for all parts of a frame, and `scene` is drawing.scene. True once the picture is there.
   bool draw(GpuScene& scene, const Drawing& drawing, const FrameParams& frame, double ms);
 
   bool going_on() const { return step_ < steps_.size(); }
@@ -39,8 +38,6 @@ class FrameInParts {
   void draw_triangles(GpuScene& scene, const Drawing& drawing, const FrameParams& frame, TriangleRange triangles) const;
   void draw_share(GpuScene& scene, const Drawing& drawing, const FrameParams& frame, const Step& step,
                   double share) const;
-  // As much as is expected to take so long; waits for it, and returns how long it took.
-  double draw_group(GpuScene& scene, const Drawing& drawing, const FrameParams& frame, double ms);
 
   const FrameRenderer* renderer_;
   std::vector<Step> steps_;

@@ -52,10 +52,6 @@ void FrameRenderer::make_picture(const Drawing& drawing, const FrameParams& fram
   tone_mapper_.draw(radiance_.texture(), exposed(drawing.scale, frame), frame.curve);
 }
 
-void FrameRenderer::finish() const {
-  glFinish();
-}
-
 Image FrameRenderer::read_radiance() const {
   return radiance_.read(1 / unit_);
 }

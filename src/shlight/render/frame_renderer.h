@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "shlight/image/image.h"
 #include "shlight/image/tone_map.h"
 #include "shlight/render/background.h"
@@ -48,8 +50,8 @@ class FrameRenderer {
   void add_background(const Drawing& drawing, const FrameParams& frame) const;
   void average() const;
   void make_picture(const Drawing& drawing, const FrameParams& frame) const;
-  // Waits until the device has drawn it.
-  void finish() const;
+  // Exchanges the picture that was drawn for a target of the same size, which the next one will be drawn into.
+  void swap_picture(PictureTarget& other) { std::swap(picture_, other); }
 
   // Linear radiance of what was drawn last, in the light's own unit.
   Image read_radiance() const;
@@ -77,6 +79,7 @@ class RadiancePicture {
   // `radiance` of any size; stretched over the picture, each pixel as a rectangle.
   void set(const Image& radiance, double unit);
   void draw(double exposed, ToneCurve curve) const;
+  void swap_picture(PictureTarget& other) { std::swap(picture_, other); }  // as FrameRenderer does
   Image8 read_picture() const { return picture_.read(); }
   unsigned texture() const { return picture_.texture(); }
   int width() const { return width_; }

@@ -172,6 +172,10 @@ void draw_fullscreen_triangle() {
   glBindVertexArray(0);
 }
 
+void finish() {
+  glFinish();
+}
+
 int get_integer(unsigned name) {
   GLint value = 0;
   glGetIntegerv(name, &value);

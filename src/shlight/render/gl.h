@@ -91,6 +91,9 @@ class Program {
 // Draws one triangle that covers the viewport, for programs with the vertex shader fullscreen.vert.
 void draw_fullscreen_triangle();
 
+// Waits until the device has done what it was asked for.
+void finish();
+
 // Asks for an integer such as GL_MAX_TEXTURE_SIZE.
 int get_integer(unsigned name);
 

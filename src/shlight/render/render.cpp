@@ -68,7 +68,7 @@ RenderResult render(const Scene& scene, const RenderLight& light, const RenderPa
       gpu_scene.set_shadows(&*shadows);
     }
     frame_renderer.draw(drawing, frame);
-    frame_renderer.finish();
+    gl::finish();
   };
 
   draw(0);

@@ -44,6 +44,8 @@ class PictureTarget {
   Image8 read() const;
   // RGBA8, rows from the bottom.
   unsigned texture() const { return texture_.id(); }
+  int width() const { return width_; }
+  int height() const { return height_; }
 
  private:
   int width_, height_;

@@ -122,6 +122,24 @@ RgbCoefficients number_scales(const Transfer& transfer, int bands, int bits, std
   return result;
 }
 
+// `scales` are those of `bits`, where they are fewer than 32.
+gl::Texture upload_numbers(const Transfer& transfer, int bands, int bits, std::span<const float> scales) {
+  const int layers = transfer.channels * num_layers(bands);
+  gl::Texture texture = make_layers(transfer.num_vertices(), layers, internal_format(bits));
+  const auto number = [&](float a, std::size_t i) { return quantise(a, scales[i], bits); };
+  for (int layer = 0; layer < layers; ++layer) {
+    if (bits == 8)
+      upload_layer<std::int8_t>(texture, transfer, bands, layer,
+                                [&](float a, std::size_t i) { return static_cast<std::int8_t>(number(a, i)); });
+    else if (bits == 16)
+      upload_layer<std::int16_t>(texture, transfer, bands, layer,
+                                 [&](float a, std::size_t i) { return static_cast<std::int16_t>(number(a, i)); });
+    else
+      upload_layer<float>(texture, transfer, bands, layer, [](float a, std::size_t) { return a; });
+  }
+  return texture;
+}
+
 gl::Texture upload_codes(const ClusteredPca& pca) {
   const std::size_t n = pca.rows_per_cluster();
   gl::Texture texture = make_layers(pca.num_vertices(), num_code_layers(pca), internal_format(16));
@@ -177,31 +195,20 @@ std::string joined(std::initializer_list<std::string_view> sources) {
 }  // namespace
 
 TransferRenderer::TransferRenderer(const Transfer& transfer, const RgbCoefficients& radiance, int bits)
-    : TransferRenderer(Empty{}, transfer, radiance, bits) {
-  while (!upload(transfer)) continue;
-}
-
-TransferRenderer TransferRenderer::make_empty(const Transfer& transfer, const RgbCoefficients& radiance, int bits) {
-  return {Empty{}, transfer, radiance, bits};
-}
-
-TransferRenderer::TransferRenderer(Empty, const Transfer& transfer, const RgbCoefficients& radiance, int bits)
     : num_vertices_(transfer.num_vertices()),
       radiance_(resize_bands(radiance, std::min(radiance.bands(), transfer.bands))),
       program_(joined({shaders::transfer_vert, shaders::transfer_sum_vert,
                        bits == 32 ? shaders::transfer_floats_vert : shaders::transfer_numbers_vert}),
-               shaders::surface_frag, shaders::transfer_frag),
-      bits_(bits),
-      layers_(transfer.channels * num_layers(radiance_.bands())) {
+               shaders::surface_frag, shaders::transfer_frag) {
   SHLIGHT_ASSERT_LE(1, radiance_.bands());
   SHLIGHT_ASSERT_LE(radiance_.bands(), kMaxTransferBands);
   SHLIGHT_ASSERT_EQ(transfer.channels == 1 || transfer.channels == 3, true);
   SHLIGHT_ASSERT_EQ(is_transfer_bits(bits), true);
   SHLIGHT_ASSERT_EQ(transfer.coefficients.size(), num_vertices_ * static_cast<std::size_t>(transfer.channels) *
                                                       static_cast<std::size_t>(num_coefficients(transfer.bands)));
-  if (bits < 32) number_scales_ = quantisation_scales(transfer);
-  transfer_ = make_layers(num_vertices_, layers_, internal_format(bits));
-  scales_ = number_scales(transfer, radiance_.bands(), bits, number_scales_);
+  const std::vector<float> scales = bits < 32 ? quantisation_scales(transfer) : std::vector<float>();
+  transfer_ = upload_numbers(transfer, radiance_.bands(), bits, scales);
+  scales_ = number_scales(transfer, radiance_.bands(), bits, scales);
   program_.use();
   program_.set("u_transfer", 1);
   program_.set("u_colored", transfer.channels == 3 ? 1 : 0);
@@ -223,22 +230,6 @@ TransferRenderer::TransferRenderer(const ClusteredPca& pca, const RgbCoefficient
   program_.set("u_layers", num_code_layers(pca));
 }
 
-bool TransferRenderer::upload(const Transfer& transfer) {
-  SHLIGHT_ASSERT_EQ(transfer.num_vertices(), num_vertices_);
-  if (uploaded_ == layers_) return true;
-  const int bands = radiance_.bands(), layer = uploaded_++;
-  const auto number = [&](float a, std::size_t i) { return quantise(a, number_scales_[i], bits_); };
-  if (bits_ == 8)
-    upload_layer<std::int8_t>(transfer_, transfer, bands, layer,
-                              [&](float a, std::size_t i) { return static_cast<std::int8_t>(number(a, i)); });
-  else if (bits_ == 16)
-    upload_layer<std::int16_t>(transfer_, transfer, bands, layer,
-                               [&](float a, std::size_t i) { return static_cast<std::int16_t>(number(a, i)); });
-  else
-    upload_layer<float>(transfer_, transfer, bands, layer, [](float a, std::size_t) { return a; });
-  return uploaded_ == layers_;
-}
-
 void TransferRenderer::set_radiance(const RgbCoefficients& radiance) {
   radiance_ = resize_bands(radiance, radiance_.bands());
 }
@@ -250,7 +241,6 @@ void TransferRenderer::mark_negative(Vec3f radiance) {
 
 void TransferRenderer::draw(const GpuScene& scene, const View& view, const Rotation& light_to_world) const {
   SHLIGHT_ASSERT_EQ(scene.num_vertices(), num_vertices_);
-  SHLIGHT_ASSERT_EQ(uploaded_, layers_);
   program_.use();
   const RgbCoefficients radiance = rotate(light_to_world, radiance_);
   if (pca_) {

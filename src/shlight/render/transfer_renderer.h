@@ -33,12 +33,6 @@ class TransferRenderer {
   // where memory runs out.
   TransferRenderer(const Transfer& transfer, const RgbCoefficients& radiance, int bits = 32);
   TransferRenderer(const ClusteredPca& pca, const RgbCoefficients& radiance);
-  // The same as the first, with nothing of the transfer on the card yet: it must not draw before upload() has brought
-  // it all there.
-  static TransferRenderer make_empty(const Transfer& transfer, const RgbCoefficients& radiance, int bits = 32);
-  // Brings the next layer there, four coefficients of a channel of all vertices; true once there are no more.
-  // `transfer` is the constructor's.
-  bool upload(const Transfer& transfer);
 
   // From now on, the light of the coefficients, of which as many bands are used as before.
   void set_radiance(const RgbCoefficients& radiance);
@@ -51,18 +45,12 @@ class TransferRenderer {
   void draw(const GpuScene& scene, const View& view, const Rotation& light_to_world = {}) const;
 
  private:
-  struct Empty {};
-  TransferRenderer(Empty, const Transfer& transfer, const RgbCoefficients& radiance, int bits);
-
   std::size_t num_vertices_;
   RgbCoefficients radiance_;
   RgbCoefficients scales_;           // of what is in the texture: L is multiplied with them
   std::optional<ClusteredPca> pca_;  // without its codes, which are in the texture
   gl::Program program_;
   gl::Texture transfer_, rows_;
-  int bits_ = 0;  // of numbers
-  int uploaded_ = 0, layers_ = 0;
-  std::vector<float> number_scales_;  // quantisation_scales, where there are fewer bits than 32
 };
 
 }  // namespace shlight

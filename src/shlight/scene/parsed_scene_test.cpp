@@ -19,8 +19,12 @@ ParsedScene make_example() {
   scene.meshes[0].texcoords.assign(scene.meshes[0].positions.size(), {0.1f, 0.2f});
   scene.instances = {{1, kIdentity}, {0, {2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1}}};
   scene.materials = {{"red", {1, 0, 0}, {}, {}}, {"mapped", {1, 1, 1}, 1, MetallicRoughness{0.75f, 0.5f}}};
-  scene.textures.push_back({"file.png", {}, {}});
-  scene.textures.push_back({"*0", {2, 1, {1, 2, 3, 4, 5, 6, 7, 8}}, {std::byte{9}}});
+  ParsedTexture file, embedded;
+  file.name = "file.png";
+  embedded.name = "*0";
+  embedded.texels = {2, 1, {1, 2, 3, 4, 5, 6, 7, 8}};
+  embedded.file_bytes = {std::byte{9}};
+  scene.textures = {file, embedded};
   scene.warnings = {"something", ""};
   return scene;
 }
