@@ -6,6 +6,7 @@ find_package(OpenImageIO REQUIRED)    # image
 find_package(muparser REQUIRED)       # light
 find_package(nlohmann_json REQUIRED)  # light, transfer, apps
 find_package(assimp REQUIRED)         # scene; its target names libz.so, which its package does not bring: zlib1g-dev
+find_package(meshoptimizer REQUIRED)  # scene
 find_package(embree 3 REQUIRED)       # transfer
 find_package(glm REQUIRED)            # render
 find_package(PkgConfig REQUIRED)

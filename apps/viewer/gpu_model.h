@@ -1,7 +1,7 @@
 #pragma once
 
 #include <map>
-#include <utility>
+#include <tuple>
 
 #include "model_asset.h"
 #include "shlight/render/gpu_scene.h"
@@ -12,12 +12,13 @@ namespace shlight::viewer {
 class GpuModel {
  public:
   explicit GpuModel(Model model) : model_(std::move(model)) {}
-  GpuScene& get(bool tangents, bool colors);
+  // `coarse`: with no more triangles than a picture of few pixels shows.
+  GpuScene& get(bool tangents, bool colors, bool coarse);
   const ModelAsset& asset() const { return *model_; }
 
  private:
   Model model_;
-  std::map<std::pair<bool, bool>, GpuScene> scenes_;
+  std::map<std::tuple<bool, bool, bool>, GpuScene> scenes_;
 };
 
 }  // namespace shlight::viewer

@@ -158,7 +158,8 @@ Picture Painter::paint(const PictureRequest& request, const Progress& progress) 
     if (request.shadows) gpu_shadows_.emplace(request.shadows->of_vertices);
     shadows_ = request.shadows;
   }
-  GpuScene& scene = request.gpu->get(needs_tangents(*renderer_), request.renderer.show != Show::kVisibility);
+  GpuScene& scene =
+      request.gpu->get(needs_tangents(*renderer_), request.renderer.show != Show::kVisibility, request.coarseness > 1);
   scene.set_shadows(gpu_shadows_ ? &*gpu_shadows_ : nullptr);  // the other side draws the same scene with its own
   const Background* background = request.background && request.renderer.lit() ? &*background_ : nullptr;
   const Drawing drawing = {scene, request.gpu->asset().extent, *renderer_, background, scale_};
