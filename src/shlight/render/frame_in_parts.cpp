@@ -12,9 +12,9 @@ namespace {
 
 // Of fewer triangles, all are sent to the device for each group of rows; more are sent once, in groups.
 constexpr std::size_t kManyTriangles = 4096;
-// The first share of what was never drawn: it may take long.
-constexpr double kFirstShare = 1.0 / 32;
+// The first share of what was never drawn is as small: it may take long.
 constexpr double kSmallestShare = 1.0 / 128;
+constexpr double kRounding = 1e-9;
 
 // The whole number nearest to a share of `count`; both ends of a share are rounded alike, so that shares fit together.
 std::size_t share_of(std::size_t count, double share) {
@@ -27,15 +27,34 @@ double ms_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
+bool FrameInParts::Step::is_known() const {
+  return std::ranges::all_of(ms, [](double t) { return t >= 0; });
+}
+
+double FrameInParts::Step::expected_ms(double begin, double end) const {
+  double sum = 0;
+  for (int i = 0; i < kSixteen; ++i) {
+    const double overlap = std::min(end * kSixteen, i + 1.0) - std::max(begin * kSixteen, static_cast<double>(i));
+    sum += std::max(overlap, 0.0) * std::max(ms[static_cast<std::size_t>(i)], 0.0);
+  }
+  return sum;
+}
+
+template <class Change>
+void FrameInParts::Step::change(double begin, double end, const Change& change) {
+  for (int i = 0; i < kSixteen; ++i)
+    if (i + 1 > begin * kSixteen + kRounding && i < end * kSixteen - kRounding) change(ms[static_cast<std::size_t>(i)]);
+}
+
 void FrameInParts::begin(const GpuScene& scene) {
   std::vector<Step> steps;
   std::size_t first = 0;
   for (const std::size_t count : scene.num_triangles()) {
     const TriangleRange all = {first, first + count};
-    steps.push_back({count >= kManyTriangles ? Kind::kTriangles : Kind::kSurfaceRows, all});
+    steps.emplace_back(count >= kManyTriangles ? Kind::kTriangles : Kind::kSurfaceRows, all);
     first += count;
   }
-  for (const Kind kind : {Kind::kBackground, Kind::kAverage, Kind::kPicture}) steps.push_back({kind, {}});
+  for (const Kind kind : {Kind::kBackground, Kind::kAverage, Kind::kPicture}) steps.emplace_back(kind, TriangleRange());
   // What was learnt of the scene stays.
   if (steps.size() == steps_.size())
     for (std::size_t i = 0; i < steps.size(); ++i) steps[i].ms = steps_[i].ms;
@@ -45,11 +64,29 @@ void FrameInParts::begin(const GpuScene& scene) {
 }
 
 double FrameInParts::next_share(const Step& step, double ms) const {
-  const double left = 1 - done_;
-  if (step.kind == Kind::kPicture) return left;  // is shown at once
-  if (step.ms < 0) return std::min(kFirstShare, left);
-  if (step.ms * left <= ms) return left;
-  return std::clamp(ms / step.ms, std::min(kSmallestShare, left), left);
+  if (step.kind == Kind::kPicture) return 1 - done_;  // is shown at once
+  double end = done_, left = ms;
+  while (end < 1 - kRounding) {
+    const int i = static_cast<int>(end * kSixteen + kRounding);
+    const double end_of_it = (i + 1.0) / kSixteen;
+    double of_it = step.ms[static_cast<std::size_t>(i)];
+    const bool is_known = of_it >= 0;
+    if (!is_known) {
+      // Drawn alone, and taken to be like the one before.
+      if (end > done_) break;
+      if (i > 0) of_it = step.ms[static_cast<std::size_t>(i) - 1];
+      if (of_it < 0) return std::min(kSmallestShare, end_of_it - done_);
+    }
+    const double rest = of_it * (end_of_it - end) * kSixteen;
+    if (rest > left) {
+      end = std::min(end + left / of_it / kSixteen, end_of_it);
+      break;
+    }
+    left -= rest;
+    end = end_of_it;
+    if (!is_known) break;
+  }
+  return std::min(std::max(end - done_, kSmallestShare), 1 - done_);
 }
 
 void FrameInParts::draw_triangles(GpuScene& scene, const Drawing& drawing, const FrameParams& frame,
@@ -87,6 +124,7 @@ bool FrameInParts::draw(GpuScene& scene, const Drawing& drawing, const FramePara
   if (!going_on()) return true;
   const auto start = std::chrono::steady_clock::now();
   const std::size_t first = step_;
+  const double begin = done_;
   double expected = 0, share = 0;
   TriangleRange whole = {0, 0};  // of whole instances, which are drawn at once
   do {
@@ -100,12 +138,11 @@ bool FrameInParts::draw(GpuScene& scene, const Drawing& drawing, const FramePara
       draw_triangles(scene, drawing, frame, std::exchange(whole, {0, 0}));
       draw_share(scene, drawing, frame, step, share);
     }
-    expected += share * std::max(step.ms, 0.0);
+    expected += step.expected_ms(done_, done_ + share);
     done_ += share;
-    constexpr double kRounding = 1e-9;
     if (done_ >= 1 - kRounding) ++step_, done_ = 0;
     // What is not known is drawn alone.
-  } while (steps_[first].ms >= 0 && going_on() && done_ == 0 && steps_[step_].ms >= 0 && expected < ms);
+  } while (steps_[first].is_known() && going_on() && done_ == 0 && steps_[step_].is_known() && expected < ms);
   draw_triangles(scene, drawing, frame, whole);
   gl::finish();
   const double took = ms_since(start);
@@ -113,11 +150,11 @@ bool FrameInParts::draw(GpuScene& scene, const Drawing& drawing, const FramePara
   // Of one step, its time is known now; several were all as much slower or faster as together.
   constexpr double kLeast = 1e-3, kMostChange = 2;
   const std::size_t last = done_ > 0 ? step_ : step_ - 1;
-  if (first == last)
-    steps_[first].ms = took / share;
-  else
-    for (std::size_t i = first; i <= last; ++i)
-      steps_[i].ms *= std::clamp(took / std::max(expected, kLeast), 1 / kMostChange, kMostChange);
+  const double end = done_ > 0 ? done_ : 1;
+  if (first == last) steps_[first].change(begin, end, [&](double& t) { t = took / (end - begin) / kSixteen; });
+  const double slower = std::clamp(took / std::max(expected, kLeast), 1 / kMostChange, kMostChange);
+  for (std::size_t i = first; first < last && i <= last; ++i)
+    steps_[i].change(i == first ? begin : 0, i == last ? end : 1, [&](double& t) { t *= slower; });
   spent_ms_ += took;
   return !going_on();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -28,10 +29,21 @@ class FrameInParts {
 
  private:
   enum class Kind { kTriangles, kSurfaceRows, kBackground, kAverage, kPicture };
+  static constexpr int kSixteen = 16;
   struct Step {
     Kind kind;
     TriangleRange triangles;
-    double ms = -1;  // when it was last drawn; negative where that is not known
+    // How long each sixteenth took when it was last drawn, as some hold many more pixels than others; negative where
+    // that is not known.
+    std::array<double, kSixteen> ms;
+
+    Step(Kind k, TriangleRange t) : kind(k), triangles(t) { ms.fill(-1); }
+    bool is_known() const;
+    // From one share of it to another, of what is known.
+    double expected_ms(double begin, double end) const;
+    // Calls `change` with each sixteenth of a share.
+    template <class Change>
+    void change(double begin, double end, const Change& change);
   };
   // The share of a step that is drawn next.
   double next_share(const Step& step, double ms) const;
