@@ -85,6 +85,7 @@ Window::Window(int width, int height, double scale) {
   apply_theme(scale_);
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the callbacks set above, too
   ImGui_ImplOpenGL3_Init("#version 300 es");
+  ImGui_ImplOpenGL3_CreateDeviceObjects();  // else the first frame does, and is a long one
 }
 
 Window::~Window() {
