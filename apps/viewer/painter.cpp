@@ -119,28 +119,29 @@ Image Painter::read_radiance() const {
   return drawn_->read_radiance();
 }
 
-// How long the card took, where the driver tells.
+// How long the card took, where the driver tells. Without what is between the parts, which is the window's.
 std::optional<double> Painter::draw(Canvas& canvas, GpuScene& scene, const Drawing& drawing, const FrameParams& frame,
                                     const Progress& progress) {
   if (!timer_) timer_.emplace();
   const std::size_t number = ++paintings_;
-  timer_->begin(number);
-  try {
-    canvas.parts.begin(scene);
-    while (!canvas.parts.draw(scene, drawing, frame, kPartMs)) {
-      thread_.give_way();
-      report_progress(progress, 0);
-    }
-  } catch (...) {
+  std::optional<double> gpu_ms;
+  const auto take_times = [&] {
+    while (const auto time = timer_->take())
+      if (time->number == number) gpu_ms = gpu_ms.value_or(0) + time->ms;
+  };
+  canvas.parts.begin(scene);
+  while (canvas.parts.going_on()) {
+    timer_->begin(number);
+    canvas.parts.draw(scene, drawing, frame, kPartMs);
     timer_->end();
-    throw;
+    take_times();
+    if (!canvas.parts.going_on()) break;
+    thread_.give_way();
+    report_progress(progress, 0);
   }
-  timer_->end();
   gl::finish();
-  std::optional<double> ms;
-  while (const auto time = timer_->take())
-    if (time->number == number) ms = time->ms;
-  return ms;
+  take_times();
+  return gpu_ms;
 }
 
 Picture Painter::paint(const PictureRequest& request, const Progress& progress) {

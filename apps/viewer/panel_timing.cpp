@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -21,16 +23,23 @@ std::string bytes_text(std::size_t bytes) {
                             : fmt::format("{:.0f} MB", 1e-6 * static_cast<double>(bytes));
 }
 
+// Pictures are drawn beside frames and have their own pace.
 void curves(const FrameTimes& times, float scale) {
-  // Of the pictures, what is known best of how long the card takes.
+  constexpr std::size_t kShownPictures = 60;
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> totals, pictures;
+  std::vector<double> totals, pictures, gpu;
   for (const FrameTimes::Frame& frame : times.kept()) {
     totals.push_back(frame.total_ms);
-    pictures.push_back(frame.gpu_ms ? *frame.gpu_ms : frame.picture_ms.value_or(kNone));
+    if (!frame.picture_ms) continue;
+    pictures.push_back(*frame.picture_ms);
+    gpu.push_back(frame.gpu_ms.value_or(kNone));
   }
-  const std::vector<Curve> both = {{totals, kCool}, {pictures, kAccent}};
-  time_curves("##frames", both, kShownFrames, 84 * scale);
+  const auto newest = static_cast<std::ptrdiff_t>(std::min(pictures.size(), kShownPictures));
+  pictures.erase(pictures.begin(), pictures.end() - newest);
+  gpu.erase(gpu.begin(), gpu.end() - newest);
+  const std::vector<Curve> frames = {{totals, kCool}}, drawn = {{gpu, kInk}, {pictures, kAccent}};
+  time_curves("##frames", frames, kShownFrames, 76 * scale);
+  time_curves("##pictures", drawn, kShownPictures, 76 * scale);
 }
 
 void row(const char* name, ImVec4 color, std::optional<double> median, std::optional<double> p99,
@@ -56,7 +65,7 @@ void table(const FrameTimes::Summary& s) {
   }
   row("frame", kCool, s.median.total_ms, s.p99.total_ms, s.max.total_ms);
   row("picture", kAccent, s.median.picture_ms, s.p99.picture_ms, s.max.picture_ms);
-  if (s.max.gpu_ms) row("GPU", kAccent, s.median.gpu_ms, s.p99.gpu_ms, s.max.gpu_ms);
+  if (s.max.gpu_ms) row("GPU", kInk, s.median.gpu_ms, s.p99.gpu_ms, s.max.gpu_ms);
   row("not drawn", kFaint, s.median.own_ms, s.p99.own_ms, s.max.own_ms);
   ImGui::EndTable();
 }
