@@ -49,7 +49,7 @@ class Side {
   bool has_picture() const { return picture_.target != nullptr; }  // needed by what follows
   const Picture& picture() const { return picture_; }
   Image8 read_picture() const;
-  Image read_radiance() const;  // of what is drawn no more while another picture is drawn
+  Image read_radiance() const;  // not while another picture is drawn
 
   // Whether what is drawn is what the look asks for, as good as it gets.
   bool settled(const Look& look) const;

@@ -214,8 +214,8 @@ bool Studio::update(int width, int height) {
     if (moved[i] || resized || drawn_coarseness_[i] != coarseness_) stale_[i] = true;
     if (stale_[i] && (!sides_[i].drawing() || sides_[i].drawing_coarseness() < coarseness_)) begin_picture(which);
   }
-  // What is drawn soon is of this frame. While something moves, there are less frames without a new picture, which take
-  // processors from it.
+  // What is drawn soon is of this frame. While something moves, a moment for the picture comes first: frames without a
+  // new one take processors from it.
   constexpr double kSoon = 8;  // ms
   if (moving || expected_ms(coarseness_) < kSoon) {
     for (const int which : {0, 1}) {

@@ -109,8 +109,11 @@ class Task {
       try {
         work(
             [job](Result result) {
-              const std::lock_guard lock(job->mutex);
-              job->result = std::move(result);
+              std::optional<Result> news = std::move(result);
+              {
+                const std::lock_guard lock(job->mutex);
+                job->result.swap(news);
+              }  // what it replaces may take long to die, and a frame may wait for the mutex
             },
             [job](double fraction) {
               job->fraction = fraction;
