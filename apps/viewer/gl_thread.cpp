@@ -1,6 +1,6 @@
 #include "gl_thread.h"
 
-#include "task.h"
+#include "patience.h"
 
 namespace shlight::viewer {
 

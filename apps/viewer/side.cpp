@@ -6,7 +6,6 @@
 #include <chrono>
 
 #include "shlight/brdf/make_brdf.h"
-#include "shlight/light/window_name.h"
 #include "tracing.h"
 
 namespace shlight::viewer {

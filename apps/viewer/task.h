@@ -1,9 +1,5 @@
 #pragma once
 
-#include <sched.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <functional>
@@ -14,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "patience.h"
 #include "shlight/core/error.h"
 #include "shlight/core/progress.h"
 
@@ -22,21 +19,6 @@ namespace shlight::viewer {
 // How many threads work that goes on beside the window may take: one processor is the window's.
 inline int worker_threads() {
   return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()) + 1) / 2;
-}
-
-// From now on, the calling thread, and threads that it starts, leave processors to threads of less patience, the
-// window's above all, where those want them.
-enum class Patience {
-  kDraws,     // pictures: a little less often
-  kComputes,  // what goes on beside the window: at once; the system takes its processors to be idle
-};
-inline void be_patient(Patience patience) {
-  constexpr int kNice = 6;
-  const sched_param none = {};
-  if (patience == Patience::kDraws)
-    ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);
-  else
-    ::sched_setscheduler(0, SCHED_IDLE, &none);  // of the calling thread
 }
 
 // Long work on a thread of its own, one at a time, of which only the newest request counts: a frame never waits for it.

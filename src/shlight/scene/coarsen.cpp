@@ -38,10 +38,12 @@ float extent_of(const std::vector<Vec3f>& positions) {
 }
 
 void coarsen(Mesh& mesh, std::size_t triangles) {
-  if (mesh.indices.empty()) return;
+  // Fewer would hardly be the same thing, and are drawn at once.
+  constexpr std::size_t kLeast = 128;
+  triangles = std::max(triangles, kLeast);
+  if (mesh.indices.size() / 3 <= triangles) return;
   // About the size of a triangle on a cube of the mesh's extent.
-  const float distance =
-      0.4f * extent_of(mesh.positions) * std::sqrt(6 / static_cast<float>(std::max<std::size_t>(triangles, 6)));
+  const float distance = 0.4f * extent_of(mesh.positions) * std::sqrt(6 / static_cast<float>(triangles));
   const std::vector<Vec3f> positions = moved_out(mesh, distance);
   constexpr float kAnyError = 1;  // of the extent
   std::vector<std::uint32_t> indices(mesh.indices.size());
