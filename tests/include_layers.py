@@ -37,8 +37,8 @@ LIBRARIES = {
     "gtest/": ["tests"],
     "benchmark/": ["tests"],
 }
-SYSTEM = re.compile(r"(fcntl|poll|signal|unistd|sys/\w+)\.h")  # the operating system's, for core and apps
-STANDARD = re.compile(r"\w+")                                  # C++ headers have neither folder nor ending
+SYSTEM = re.compile(r"(fcntl|poll|sched|signal|unistd|sys/\w+)\.h")  # the operating system's, for core and apps
+STANDARD = re.compile(r"\w+")                                        # C++ headers have neither folder nor ending
 TEST_FILE = re.compile(r"_(test|bench|test_util)\.(h|cpp)$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
