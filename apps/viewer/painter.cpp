@@ -130,6 +130,8 @@ std::optional<double> Painter::draw(Canvas& canvas, GpuScene& scene, const Drawi
       if (time->number == number) gpu_ms = gpu_ms.value_or(0) + time->ms;
   };
   canvas.parts.begin(scene);
+  gl::finish();  // what was uploaded and compiled
+  thread_.give_way();
   while (canvas.parts.going_on()) {
     timer_->begin(number);
     canvas.parts.draw(scene, drawing, frame, kPartMs);

@@ -33,8 +33,8 @@ bool FrameInParts::Step::is_known() const {
 
 double FrameInParts::Step::expected_ms(double begin, double end) const {
   double sum = 0;
-  for (int i = 0; i < kSixteen; ++i) {
-    const double overlap = std::min(end * kSixteen, i + 1.0) - std::max(begin * kSixteen, static_cast<double>(i));
+  for (int i = 0; i < kSlices; ++i) {
+    const double overlap = std::min(end * kSlices, i + 1.0) - std::max(begin * kSlices, static_cast<double>(i));
     sum += std::max(overlap, 0.0) * std::max(ms[static_cast<std::size_t>(i)], 0.0);
   }
   return sum;
@@ -42,12 +42,12 @@ double FrameInParts::Step::expected_ms(double begin, double end) const {
 
 template <class Change>
 void FrameInParts::Step::change(double begin, double end, const Change& change) {
-  for (int i = 0; i < kSixteen; ++i)
-    if (i + 1 > begin * kSixteen + kRounding && i < end * kSixteen - kRounding) change(ms[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < kSlices; ++i)
+    if (i + 1 > begin * kSlices + kRounding && i < end * kSlices - kRounding) change(ms[static_cast<std::size_t>(i)]);
 }
 
 void FrameInParts::begin(const GpuScene& scene) {
-  std::vector<Step> steps;
+  std::vector<Step> steps = {Step(Kind::kClear, {})};
   std::size_t first = 0;
   for (const std::size_t count : scene.num_triangles()) {
     const TriangleRange all = {first, first + count};
@@ -60,15 +60,15 @@ void FrameInParts::begin(const GpuScene& scene) {
     for (std::size_t i = 0; i < steps.size(); ++i) steps[i].ms = steps_[i].ms;
   steps_ = std::move(steps);
   step_ = 0, done_ = 0, spent_ms_ = 0;
-  renderer_->clear();
 }
 
 double FrameInParts::next_share(const Step& step, double ms) const {
+  if (step.kind == Kind::kClear) return 1;            // of all pixels, which drivers do faster
   if (step.kind == Kind::kPicture) return 1 - done_;  // is shown at once
   double end = done_, left = ms;
   while (end < 1 - kRounding) {
-    const int i = static_cast<int>(end * kSixteen + kRounding);
-    const double end_of_it = (i + 1.0) / kSixteen;
+    const int i = static_cast<int>(end * kSlices + kRounding);
+    const double end_of_it = (i + 1.0) / kSlices;
     double of_it = step.ms[static_cast<std::size_t>(i)];
     const bool is_known = of_it >= 0;
     if (!is_known) {
@@ -77,9 +77,9 @@ double FrameInParts::next_share(const Step& step, double ms) const {
       if (i > 0) of_it = step.ms[static_cast<std::size_t>(i) - 1];
       if (of_it < 0) return std::min(kSmallestShare, end_of_it - done_);
     }
-    const double rest = of_it * (end_of_it - end) * kSixteen;
+    const double rest = of_it * (end_of_it - end) * kSlices;
     if (rest > left) {
-      end = std::min(end + left / of_it / kSixteen, end_of_it);
+      end = std::min(end + left / of_it / kSlices, end_of_it);
       break;
     }
     left -= rest;
@@ -99,6 +99,7 @@ void FrameInParts::draw_triangles(GpuScene& scene, const Drawing& drawing, const
 
 void FrameInParts::draw_share(GpuScene& scene, const Drawing& drawing, const FrameParams& frame, const Step& step,
                               double share) const {
+  if (step.kind == Kind::kClear) return renderer_->clear();
   const double end = done_ + share;
   if (step.kind == Kind::kTriangles) {
     const std::size_t count = step.triangles.end - step.triangles.begin;
@@ -151,7 +152,7 @@ bool FrameInParts::draw(GpuScene& scene, const Drawing& drawing, const FramePara
   constexpr double kLeast = 1e-3, kMostChange = 2;
   const std::size_t last = done_ > 0 ? step_ : step_ - 1;
   const double end = done_ > 0 ? done_ : 1;
-  if (first == last) steps_[first].change(begin, end, [&](double& t) { t = took / (end - begin) / kSixteen; });
+  if (first == last) steps_[first].change(begin, end, [&](double& t) { t = took / (end - begin) / kSlices; });
   const double slower = std::clamp(took / std::max(expected, kLeast), 1 / kMostChange, kMostChange);
   for (std::size_t i = first; first < last && i <= last; ++i)
     steps_[i].change(i == first ? begin : 0, i == last ? end : 1, [&](double& t) { t *= slower; });

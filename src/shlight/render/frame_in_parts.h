@@ -28,20 +28,20 @@ class FrameInParts {
   double spent_ms() const { return spent_ms_; }
 
  private:
-  enum class Kind { kTriangles, kSurfaceRows, kBackground, kAverage, kPicture };
-  static constexpr int kSixteen = 16;
+  enum class Kind { kClear, kTriangles, kSurfaceRows, kBackground, kAverage, kPicture };
+  static constexpr int kSlices = 16;
   struct Step {
     Kind kind;
     TriangleRange triangles;
-    // How long each sixteenth took when it was last drawn, as some hold many more pixels than others; negative where
+    // How long each slice took when it was last drawn, as some hold many more pixels than others; negative where
     // that is not known.
-    std::array<double, kSixteen> ms;
+    std::array<double, kSlices> ms;
 
     Step(Kind k, TriangleRange t) : kind(k), triangles(t) { ms.fill(-1); }
     bool is_known() const;
     // From one share of it to another, of what is known.
     double expected_ms(double begin, double end) const;
-    // Calls `change` with each sixteenth of a share.
+    // Calls `change` with each slice of a share.
     template <class Change>
     void change(double begin, double end, const Change& change);
   };
