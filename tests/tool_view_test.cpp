@@ -201,6 +201,10 @@ TEST_F(ToolView, IsDrawnInWindowsOfAnySize) {
   EXPECT_EQ(window.height, 790);
 }
 
+TEST_F(ToolView, AWaitEndsWhereWhatWorksIsHidden) {
+  view_well("resize 1200 700\nwait\nset insight on\nframes 2\nset insight off\nwait\n");
+}
+
 TEST_F(ToolView, ATinyWindowAndOneOfNothingComeBack) {
   view_well("wait\npicture " + path("before.png") + "\nresize 60 40\nframes 4\nwait\nscreenshot " + path("tiny.png") +
             "\nresize 1 1\nframes 4\nreport " + path("nothing") + "\nresize 620 300\nframes 4\nwait\npicture " +

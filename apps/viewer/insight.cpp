@@ -27,21 +27,24 @@ void Insight::draw_on(GlThread& thread) {
   balloon_painter_ = thread.own(std::make_unique<BalloonPainter>(thread));
 }
 
-void Insight::request(const Subject& subject, const Look& look) {
+void Insight::request_errors(const Subject& subject, const Look& look) {
+  if (!subject.light->final) return;
   const bool diffuse = look.material.empty() || look.method == Method::kIrradiance || look.method == Method::kTransfer;
   const std::string material = diffuse ? "lambert:rho=1" : look.material;
-  if (subject.light->final)
-    error_task_.request(
-        fmt::format("{} {} {}", subject.light->key, material, look.window),
-        [light = subject.light, material, window = look.window](const auto& publish, const Progress&) {
-          BandErrorParams params;
-          params.threads = worker_threads();
-          if (window != "none")
-            params.shape = [&](const RgbCoefficients& c) { return apply_named_window(window, c).coefficients; };
-          publish(std::make_shared<const std::optional<BandErrors>>(
-              measure_band_errors(*light->loaded->light, *make_brdf(material), params)));
-        },
-        false);
+  error_task_.request(
+      fmt::format("{} {} {}", subject.light->key, material, look.window),
+      [light = subject.light, material, window = look.window](const auto& publish, const Progress&) {
+        BandErrorParams params;
+        params.threads = worker_threads();
+        if (window != "none")
+          params.shape = [&](const RgbCoefficients& c) { return apply_named_window(window, c).coefficients; };
+        publish(std::make_shared<const std::optional<BandErrors>>(
+            measure_band_errors(*light->loaded->light, *make_brdf(material), params)));
+      },
+      false);
+}
+
+void Insight::request_maps(const Subject& subject, const Look& look) {
   map_task_.request(
       fmt::format("{} {} {}", subject.light->key, look.window, look.bands),
       [light = subject.light, look](const auto& publish, const Progress&) {
@@ -109,8 +112,13 @@ void Insight::point(const Subject& subject, const Side& side, const Settings& se
   at_pointer_ = std::move(at);
 }
 
-bool Insight::update(const Subject& subject, const Look& look, const Camera& camera, int width, int height) {
-  request(subject, look);
+void Insight::request(const Subject& subject, const Look& look, const Camera& camera, int width, int height) {
+  request_errors(subject, look);
+  request_maps(subject, look);
+  if (width > 0 && height > 0) request_balloon(camera, width, height);
+}
+
+bool Insight::take_news() {
   bool changed = false;
   if (const auto news = error_task_.poll(); news && news->result) {
     errors_ = **news->result;
@@ -127,9 +135,7 @@ bool Insight::update(const Subject& subject, const Look& look, const Camera& cam
     balloon_key_.clear();
     changed = true;
   }
-  changed = take_balloon() || changed;
-  if (width > 0 && height > 0) request_balloon(camera, width, height);
-  return changed;
+  return take_balloon() || changed;
 }
 
 }  // namespace shlight::viewer

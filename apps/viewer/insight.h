@@ -20,8 +20,11 @@ class Insight {
  public:
   // The balloon is drawn there. Called once, before all else; the thread has to outlive this.
   void draw_on(GlThread& thread);
+  // Takes in what has been computed; true where there is something new. Once a frame, seen or not: what is hidden while
+  // it works must end, too.
+  bool take_news();
   // Once a frame where it is seen.
-  bool update(const Subject& subject, const Look& look, const Camera& camera, int width, int height);
+  void request(const Subject& subject, const Look& look, const Camera& camera, int width, int height);
 
   // Error and energy by bands; nothing until they are known, or where there is no light.
   const std::optional<BandErrors>& errors() const { return errors_; }
@@ -47,7 +50,8 @@ class Insight {
     Image8 original, reconstructed;
     std::shared_ptr<const Scene> balloon;
   };
-  void request(const Subject& subject, const Look& look);
+  void request_errors(const Subject& subject, const Look& look);
+  void request_maps(const Subject& subject, const Look& look);
   void request_balloon(const Camera& camera, int width, int height);
   bool take_balloon();
 

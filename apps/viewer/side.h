@@ -32,7 +32,10 @@ class Side {
   // Pictures are drawn there. Called once, before all else; the thread has to outlive this.
   void draw_on(GlThread& thread);
 
-  // Starts and takes in work; true where there is something new to draw.
+  // Takes in what has been computed; true where there is something new to draw. Once a frame, seen or not: what is
+  // hidden while it works must end, too.
+  bool take_news();
+  // The same where it is seen: starts work as well.
   bool update(const Subject& subject, const Settings& settings, const Look& look, int width, int height);
   // Asks for a picture of what there is, of the size of update(), or of that divided by `coarseness`, which takes less
   // time. One that was asked for before and is not there yet is given up.
@@ -70,7 +73,6 @@ class Side {
   void request_bake(const Subject& subject, const Look& look);
   void request_shadows(const Subject& subject, const Settings& settings, const Look& look);
   void request_trace(const Subject& subject, const Settings& settings, const Look& look);
-  bool take_news();
   bool choose_renderer(const Subject& subject, const Look& look);
 
   Task<std::shared_ptr<const Tables>> table_;

@@ -193,7 +193,10 @@ bool Studio::update(int width, int height) {
   std::array<bool, 2> moved = {};
   for (const int which : {0, 1}) {
     const auto i = static_cast<std::size_t>(which);
-    if (!settings.shows(which)) continue;
+    if (!settings.shows(which)) {  // what it has begun goes on, for when it is seen again
+      if (sides_[i].take_news()) stale_[i] = true;
+      continue;
+    }
     if (sides_[i].update(subject_, settings, settings.looks[i], width, height)) stale_[i] = true;
     if (const auto error = sides_[i].take_error()) say(*error, true);
     const std::string side_key = drawing_key(settings, settings.looks[i]) + " " + subject_.light->key;

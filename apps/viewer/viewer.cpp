@@ -86,11 +86,11 @@ class Viewer {
     const auto picture_width = static_cast<int>(std::max(layout.picture_width(), 1.0f));
     const auto before_update = Clock::now();
     bool changed = studio_.update(picture_width, height);
+    changed = insight_.take_news() || changed;
     if (layout.right > 0 && studio_.ready()) {
       const auto balloon = static_cast<int>(layout.right - 28 * layout.scale);
-      changed = insight_.update(studio_.subject(), studio_.settings.look(), studio_.settings.camera, balloon,
-                                static_cast<int>(0.62 * balloon)) ||
-                changed;
+      insight_.request(studio_.subject(), studio_.settings.look(), studio_.settings.camera, balloon,
+                       static_cast<int>(0.62 * balloon));
     }
     set_title();
     const auto before_panels = Clock::now();
