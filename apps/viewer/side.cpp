@@ -304,7 +304,10 @@ std::string Side::activity() const {
   const auto works = [](const auto& task) { return task.busy() && !task.wanted().empty(); };
   if (works(bake_)) return fmt::format("baking, {:.0f} %", 100 * bake_.fraction());
   if (works(table_)) return "computing how it reflects";
-  if (works(trace_)) return traced_samples() > 0 ? fmt::format("{} paths a pixel", traced_samples()) : "tracing";
+  if (works(trace_))
+    return traced_samples() > 0
+               ? fmt::format("{} paths a pixel, noise {:.2g} %", traced_samples(), 100 * traced_->noise)
+               : "tracing";
   return "";
 }
 

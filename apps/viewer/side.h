@@ -65,7 +65,6 @@ class Side {
   std::optional<std::string> take_error();
 
   int traced_samples() const { return traced_ ? traced_->result.samples : 0; }
-  double traced_noise() const { return traced_ ? traced_->noise : 0; }  // relative
   const Transfer* transfer() const { return transfer_ ? transfer_->transfer.get() : nullptr; }
 
  private:

@@ -35,28 +35,44 @@ std::string describe(const Look& look) {
   return text;
 }
 
-// A label on the picture, at a corner: a name, what goes on, and how far that is.
-void label(const std::string& text, const Side& side, ImVec2 at, float align, float scale) {
+enum class Corner { kTopLeft, kBottomRight };
+
+// A label on the picture: a name, what goes on, and how far that is; in lines where it is too wide for one. Returns
+// where it ends below.
+float label(const std::string& text, const Side& side, const Rect& picture, Corner corner, float scale) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  std::string activity = side.activity();
-  if (side.traced_samples() > 0 && !activity.empty())
-    activity += fmt::format(", noise {:.2g} %", 100 * side.traced_noise());
-  const std::string all = activity.empty() ? text : text + "   " + activity;
-  const ImVec2 size = ImGui::CalcTextSize(all.c_str());
-  const float pad = 8 * scale;
-  const ImVec2 min = {at.x - align * (size.x + 2 * pad), at.y},
-               max = {min.x + size.x + 2 * pad, min.y + size.y + 1.2f * pad};
+  const std::string activity = side.activity();
+  const float margin = 12 * scale, pad = 8 * scale, gap = activity.empty() ? 0 : 16 * scale;
+  const float widest =
+      std::max(picture.width() - 2 * margin - 2 * pad, 120 * scale);  // narrower lines are hard to read
+  const auto size_of = [&](const std::string& words) {
+    return ImGui::CalcTextSize(words.c_str(), nullptr, false, widest);
+  };
+  const auto write = [&](const std::string& words, ImVec2 at, const ImVec4& color) {
+    draw.AddText(nullptr, 0, at, ImGui::GetColorU32(color), words.c_str(), nullptr, widest);
+  };
+  const ImVec2 name = size_of(text), news = activity.empty() ? ImVec2{} : size_of(activity);
+  const bool beside = name.x + gap + news.x <= widest;
+  const ImVec2 inside = beside ? ImVec2{name.x + gap + news.x, std::max(name.y, news.y)}
+                               : ImVec2{std::max(name.x, news.x), name.y + news.y};
+  const ImVec2 size = {inside.x + 2 * pad, inside.y + 1.2f * pad};
+  const ImVec2 min = corner == Corner::kTopLeft
+                         ? ImVec2{picture.min.x + margin, picture.min.y + margin}
+                         : ImVec2{picture.max.x - margin - size.x, picture.max.y - margin - size.y};
+  const ImVec2 max = {min.x + size.x, min.y + size.y};
   draw.AddRectFilled(min, max, ImGui::GetColorU32({0.07f, 0.075f, 0.085f, 0.72f}), 6 * scale);
-  draw.AddText({min.x + pad, min.y + 0.6f * pad}, ImGui::GetColorU32(kInk), text.c_str());
-  if (activity.empty()) return;
-  draw.AddText({min.x + pad + ImGui::CalcTextSize((text + "   ").c_str()).x, min.y + 0.6f * pad},
-               ImGui::GetColorU32(kAccent), activity.c_str());
-  const float filled = (max.x - min.x - 2 * pad) * static_cast<float>(std::clamp(side.fraction(), 0.0, 1.0));
+  const ImVec2 first = {min.x + pad, min.y + 0.6f * pad};
+  write(text, first, kInk);
+  if (activity.empty()) return max.y;
+  write(activity, beside ? ImVec2{first.x + name.x + gap, first.y} : ImVec2{first.x, first.y + name.y}, kAccent);
+  const float filled = inside.x * static_cast<float>(std::clamp(side.fraction(), 0.0, 1.0));
   draw.AddRectFilled({min.x + pad, max.y - 3 * scale}, {min.x + pad + filled, max.y - 1.5f * scale},
                      ImGui::GetColorU32(kAccent));
+  return max.y;
 }
 
-void draw_pictures(const Studio& studio, const Rect& rect, float scale) {
+// Returns where the label at the top ends.
+float draw_pictures(const Studio& studio, const Rect& rect, float scale) {
   const Settings& s = studio.settings;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const auto picture = [&](int which, float from, float to) {
@@ -65,12 +81,10 @@ void draw_pictures(const Studio& studio, const Rect& rect, float scale) {
     draw.AddImage(id_of(side.picture().target->texture()), {rect.min.x + from * rect.width(), rect.min.y},
                   {rect.min.x + to * rect.width(), rect.max.y}, {from, 1}, {to, 0});
   };
-  const float margin = 12 * scale;
   if (s.compare == Compare::kOne) {
     picture(s.side, 0, 1);
-    label(describe(s.looks[static_cast<std::size_t>(s.side)]), studio.side(s.side),
-          {rect.min.x + margin, rect.min.y + margin}, 0, scale);
-    return;
+    return label(describe(s.looks[static_cast<std::size_t>(s.side)]), studio.side(s.side), rect, Corner::kTopLeft,
+                 scale);
   }
   const auto divider = static_cast<float>(s.divider);
   picture(0, 0, divider);
@@ -79,25 +93,26 @@ void draw_pictures(const Studio& studio, const Rect& rect, float scale) {
   draw.AddLine({x, rect.min.y}, {x, rect.max.y}, ImGui::GetColorU32({1, 1, 1, 0.75f}), 1.5f * scale);
   draw.AddCircleFilled({x, y}, 7 * scale, ImGui::GetColorU32({1, 1, 1, 0.9f}), 24);
   draw.AddCircleFilled({x, y}, 3 * scale, ImGui::GetColorU32(kAccent), 16);
-  label("A  " + describe(s.looks[0]), studio.side(0), {rect.min.x + margin, rect.min.y + margin}, 0, scale);
-  label("B  " + describe(s.looks[1]), studio.side(1), {rect.max.x - margin, rect.max.y - margin - 34 * scale}, 1,
-        scale);
+  label("B  " + describe(s.looks[1]), studio.side(1), rect, Corner::kBottomRight, scale);
+  return label("A  " + describe(s.looks[0]), studio.side(0), rect, Corner::kTopLeft, scale);
 }
 
-void draw_difference(const Studio& studio, const Rect& rect, float scale) {
+// The same.
+float draw_difference(const Studio& studio, const Rect& rect, float scale) {
   const Difference::Result& result = *studio.difference().result();
   const PictureTexture& map = *studio.difference().texture();
-  const auto width = static_cast<float>(map.width()), height = static_cast<float>(map.height());
-  const float zoom = std::min(rect.width() / width, rect.height() / height);
-  const ImVec2 min = {rect.min.x + 0.5f * (rect.width() - zoom * width),
-                      rect.min.y + 0.5f * (rect.height() - zoom * height)};
-  ImGui::GetWindowDrawList()->AddImage(id_of(map.texture()), min, {min.x + zoom * width, min.y + zoom * height});
   const ImageError& e = result.error;
-  const std::string text =
-      fmt::format("FLIP {:.4f}   off by {:.3g} % (root mean square)   SSIM {:.4f}   at {} x {} pixels", e.flip,
-                  100 * e.relative, e.ssim, result.width, result.height);
-  const float margin = 12 * scale;
-  label(text, studio.side(1), {rect.min.x + margin, rect.min.y + margin}, 0, scale);
+  const float top =
+      label(fmt::format("FLIP {:.4f}   off by {:.3g} % (root mean square)   SSIM {:.4f}   at {} x {} pixels", e.flip,
+                        100 * e.relative, e.ssim, result.width, result.height),
+            studio.side(1), rect, Corner::kTopLeft, scale);
+  const Rect below = {{rect.min.x, std::min(top + 4 * scale, rect.max.y)}, rect.max};
+  const auto width = static_cast<float>(map.width()), height = static_cast<float>(map.height());
+  const float zoom = std::min(below.width() / width, below.height() / height);
+  const ImVec2 min = {below.min.x + 0.5f * (below.width() - zoom * width),
+                      below.min.y + 0.5f * (below.height() - zoom * height)};
+  ImGui::GetWindowDrawList()->AddImage(id_of(map.texture()), min, {min.x + zoom * width, min.y + zoom * height});
+  return top;
 }
 
 void navigate(Studio& studio, const Rect& rect, float scale) {
@@ -146,12 +161,13 @@ void viewport(Studio& studio, const Layout& layout) {
                    ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PopStyleVar(2);
   navigate(studio, rect, layout.scale);
+  float top = rect.min.y;
   if (studio.settings.compare == Compare::kDifference && studio.difference_fits())
-    draw_difference(studio, rect, layout.scale);
+    top = draw_difference(studio, rect, layout.scale);
   else if (studio.ready())
-    draw_pictures(studio, rect, layout.scale);
+    top = draw_pictures(studio, rect, layout.scale);
   if (studio.side(studio.settings.side).can_cancel()) {
-    ImGui::SetCursorScreenPos({rect.min.x + 12 * layout.scale, rect.min.y + 46 * layout.scale});
+    ImGui::SetCursorScreenPos({rect.min.x + 12 * layout.scale, top + 6 * layout.scale});
     if (ImGui::SmallButton("stop")) studio.side(studio.settings.side).cancel();
     hint("Keeps what there is so far");
   }
