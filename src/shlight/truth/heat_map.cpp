@@ -28,9 +28,9 @@ bool can_be_shown(Rgb c) {
 
 // A bar from the largest value at the top to 0 at the bottom, numbers beside it.
 void draw_scale(Image8& image, int left, double largest) {
-  constexpr int kMargin = 8, kBarWidth = 8, kTick = 3;
+  constexpr int kMargin = 8, kBarWidth = 8, kTick = 3, kEnd = kTextHeight / 2 + 4;
   constexpr double kPage = 0.02;  // a dark grey
-  const int top = kTextHeight / 2, bottom = image.height - 1 - kTextHeight / 2;
+  const int top = kEnd, bottom = image.height - 1 - kEnd;
   for (int y = 0; y < image.height; ++y)
     for (int x = left; x < image.width; ++x) {
       const bool is_bar = x >= left + kMargin && x < left + kMargin + kBarWidth && y >= top && y <= bottom;
