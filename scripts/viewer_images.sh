@@ -45,6 +45,7 @@ shot visibility builtin:scene <<'END'
 set show visibility
 set timing on
 wait
+wheel -3
 spin 200
 END
 
