@@ -11,7 +11,7 @@
 
 #include "command.h"
 #include "shlight/core/error.h"
-#include "shlight/core/peak_memory.h"
+#include "shlight/core/process.h"
 #include "shlight/scene/load_scene.h"
 #include "shlight/transfer/baked_file.h"
 #include "shlight/transfer/clustered_pca.h"

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "command.h"
 #include "shlight/brdf/make_brdf.h"
 #include "shlight/core/error.h"
+#include "shlight/core/quantile.h"
 #include "shlight/render/render.h"
 #include "shlight/scene/load_scene.h"
 
@@ -31,11 +31,6 @@ struct TimedMethod {
   std::function<RenderResult(const Progress&)> draw;
   std::vector<double> ms = {}, ratios = {};  // a round each; ratios to the first method's of the same round
 };
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
 
 // What every method draws from.
 struct BenchScene {

@@ -37,8 +37,4 @@ class FrameTimes {
   std::size_t count_ = 0;
 };
 
-// How long this process has been running, in ms, to 10 ms: what libraries take to load is in it. 0 where the system
-// does not tell.
-double process_age_ms();
-
 }  // namespace shlight::viewer

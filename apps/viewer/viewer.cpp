@@ -22,7 +22,7 @@
 #include "script.h"
 #include "shlight/core/error.h"
 #include "shlight/core/file.h"
-#include "shlight/core/peak_memory.h"
+#include "shlight/core/process.h"
 #include "shlight/image/image_io.h"
 #include "shlight/light/coefficient_file.h"
 #include "shlight/render/context.h"

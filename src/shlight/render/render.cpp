@@ -2,25 +2,19 @@
 
 #include <epoxy/gl.h>
 
-#include <algorithm>
 #include <chrono>
 #include <numbers>
 #include <optional>
 #include <vector>
 
 #include "shlight/core/assert.h"
+#include "shlight/core/quantile.h"
 #include "shlight/render/context.h"
 #include "shlight/render/frame_renderer.h"
 #include "shlight/render/highlight_light.h"
 
 namespace shlight {
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // What of the light is drawn, in the light's unit.
 RgbCoefficients drawn_light(const RenderLight& light, const LightScale& scale, const RenderParams& params) {

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 #include "shlight/brdf/project_brdf.h"
 #include "shlight/brdf/reflectance_table.h"
 #include "shlight/core/parallel.h"
+#include "shlight/core/quantile.h"
 #include "shlight/light/project_image.h"
 #include "shlight/scene/shapes.h"
 #include "shlight/sh/basis.h"
@@ -33,8 +35,7 @@ double time_once(const std::function<void()>& work) {
 double time_of(int runs, const std::function<void(int run)>& work) {
   std::vector<double> seconds;
   for (int run = 0; run < runs; ++run) seconds.push_back(time_once([&] { work(run); }));
-  std::ranges::nth_element(seconds, seconds.begin() + runs / 2);
-  return seconds[static_cast<std::size_t>(runs / 2)];
+  return median(std::move(seconds));
 }
 
 double largest_channel(Rgb c) {

@@ -13,7 +13,7 @@
 #include <mutex>
 #include <string>
 
-#include "shlight/core/peak_memory.h"
+#include "shlight/core/process.h"
 #include "shlight/scene/load_scene.h"
 #include "shlight/scene/shapes.h"
 #include "shlight/sh/floor_bench.h"

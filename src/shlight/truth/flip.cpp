@@ -6,9 +6,11 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "shlight/core/assert.h"
 #include "shlight/core/parallel.h"
+#include "shlight/core/quantile.h"
 
 namespace shlight {
 namespace {
@@ -253,12 +255,10 @@ FlipExposures flip_exposures(const Image& reference) {
       if (const double v = luminance(reference.rgb(x, y)); v > 0) bright.push_back(v);
   if (bright.empty()) return {};
   const double largest = *std::ranges::max_element(bright);
-  const auto middle = bright.begin() + static_cast<std::ptrdiff_t>(bright.size() / 2);
-  std::ranges::nth_element(bright, middle);
   FlipExposures exposures;
   const double shown = invert_aces(0.85);
   exposures.start = std::log2(shown / largest);
-  exposures.stop = std::log2(shown / *middle);
+  exposures.stop = std::log2(shown / median(std::move(bright)));
   exposures.count = std::max(2, static_cast<int>(std::ceil(exposures.stop - exposures.start)));
   return exposures;
 }

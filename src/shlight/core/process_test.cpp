@@ -1,7 +1,9 @@
-#include "shlight/core/peak_memory.h"
+#include "shlight/core/process.h"
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
 #include <vector>
 
 namespace shlight {
@@ -30,6 +32,16 @@ TEST(PeakMemory, ResidentMemoryForgetsWhatIsGivenBack) {
     EXPECT_LE(resident_memory(), peak_memory());
   }
   EXPECT_LT(resident_memory(), before + kBytes / 2);
+}
+
+TEST(ProcessAge, GrowsAsTheClockDoes) {
+  const double first = process_age_ms();
+  if (first == 0) GTEST_SKIP() << "this system does not tell";
+  EXPECT_GT(first, 0);
+  EXPECT_LT(first, 600'000) << "this test has not run for that long";
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  const double grown = process_age_ms() - first;
+  EXPECT_GE(grown, 40);
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
-#include "shlight/core/peak_memory.h"
+#include "shlight/core/process.h"
+
+#include <unistd.h>
 
 #include <fstream>
 #include <string>
@@ -31,6 +33,20 @@ std::uint64_t resident_memory() {
 
 void reset_peak_memory() {
   std::ofstream("/proc/self/clear_refs") << 5;
+}
+
+// From proc(5): the 22nd field of stat is when the process started, in ticks since the machine did; the first of uptime
+// is now, in seconds.
+double process_age_ms() {
+  constexpr int kStartField = 22;
+  std::ifstream stat("/proc/self/stat"), uptime("/proc/uptime");
+  double now = 0, start = 0;
+  std::string field;
+  // The second field is the program's name between brackets, in which there may be anything.
+  std::getline(stat, field, ')');
+  for (int i = 3; i < kStartField; ++i) stat >> field;
+  if (!(stat >> start) || !(uptime >> now)) return 0;
+  return 1000 * (now - start / static_cast<double>(::sysconf(_SC_CLK_TCK)));
 }
 
 }  // namespace shlight
