@@ -7,10 +7,12 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shlight/render/render_test_util.h"
 #include "shlight/render/sh_glsl.h"
+#include "shlight/scene/load_scene.h"
 #include "shlight/sh/rotation.h"
 #include "shlight/sh/zonal.h"
 
@@ -218,6 +220,37 @@ TEST_F(Render, TrianglesHaveTwoSides) {
   const double facing = reconstruct(irradiance_from_radiance(behind), {0, 0, -1}).g / std::numbers::pi;
   EXPECT_NEAR(draw(square, behind, test_params(180)).rgb(middle, middle).g, facing, kHalfPrecision);
   EXPECT_LT(draw(square, behind, test_params(0)).rgb(middle, middle).g, 0.1 * facing);
+}
+
+// Pixels that are brighter or darker than all eight around them, by so many of 255 steps.
+int num_specks(const Image8& picture, int steps) {
+  const auto value = [&](int x, int y, int c) {
+    return int{picture.values[static_cast<std::size_t>(4 * (y * picture.width + x) + c)]};
+  };
+  int specks = 0;
+  for (int y = 1; y + 1 < picture.height; ++y)
+    for (int x = 1; x + 1 < picture.width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        int low = 255, high = 0;
+        for (int i = 0; i < 9; ++i) {
+          if (i == 4) continue;
+          const int v = value(x + i % 3 - 1, y + i / 3 - 1, c);
+          low = std::min(low, v), high = std::max(high, v);
+        }
+        if (value(x, y, c) > high + steps || value(x, y, c) < low - steps) ++specks;
+      }
+  return specks;
+}
+
+// There, samples may lie off slivers of triangles, and the far side may show through.
+TEST_F(Render, OutlinesDoNotSparkle) {
+  const Scene sphere = make_scene("builtin:sphere");
+  for (const auto& [azimuth, elevation] : {std::pair{30, 11}, {100, -20}, {200, 40}, {310, 5}}) {
+    RenderParams params = test_params(azimuth, elevation);
+    params.width = params.height = 500;
+    params.show = Show::kNormals;
+    EXPECT_EQ(num_specks(render_irradiance(sphere, {RgbCoefficients(1), {}}, params).picture, 20), 0) << azimuth;
+  }
 }
 
 TEST_F(Render, TexturesAndVertexColorsMultiplyTheBaseColor) {

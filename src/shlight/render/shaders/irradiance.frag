@@ -6,9 +6,11 @@ in vec3 v_shadow;
 
 const float kInversePi = 0.318309886;
 
-vec3 seen_normal();
+void see(out vec3 n, out vec3 to_eye);
 vec3 eval_sh(vec3 n);  // irradiance
 
 vec3 radiance_of(vec3 base_color) {
-  return kInversePi * v_shadow * base_color * eval_sh(seen_normal());
+  vec3 n, to_eye;
+  see(n, to_eye);
+  return kInversePi * v_shadow * base_color * eval_sh(n);
 }

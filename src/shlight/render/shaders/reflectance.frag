@@ -4,11 +4,12 @@
 in vec3 v_tangent;
 in vec3 v_shadow;
 
-vec3 seen_normal();
+void see(out vec3 n, out vec3 to_eye);
 void reflect_light(vec3 n, vec3 tangent, vec3 to_eye, out vec3 plain, out vec3 tinted);
 
 vec3 radiance_of(vec3 base_color) {
-  vec3 plain, tinted;
-  reflect_light(seen_normal(), v_tangent, v_to_eye, plain, tinted);
+  vec3 n, to_eye, plain, tinted;
+  see(n, to_eye);
+  reflect_light(n, v_tangent, to_eye, plain, tinted);
   return v_shadow * (plain + base_color * tinted);
 }
