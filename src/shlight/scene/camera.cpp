@@ -123,6 +123,16 @@ View make_view(const Camera& camera, const Extent& extent, double aspect) {
   return view;
 }
 
+std::optional<PicturePlace> place_in_picture(const View& view, Vec3d point) {
+  const auto seen = [&](std::size_t row) {
+    const Mat4d& m = view.world_to_view;
+    return m[row] * point.x + m[4 + row] * point.y + m[8 + row] * point.z + m[12 + row];
+  };
+  const double depth = -seen(2);
+  if (!(depth > 0)) return {};
+  return PicturePlace{view.view_to_clip[0] * seen(0) / depth, view.view_to_clip[5] * seen(1) / depth};
+}
+
 void pan_camera(Camera& camera, const Extent& extent, double aspect, double right, double up) {
   const double height = 2 * half_tangent(camera) * distance_to_target(camera, extent, aspect);
   const CameraAxes axes = camera_axes(camera);

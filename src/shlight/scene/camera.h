@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "shlight/scene/scene.h"
 #include "shlight/sh/vec.h"
@@ -44,6 +45,13 @@ struct View {
 // of the picture, just fits with a small margin. Near and far planes hold all of the ball that is
 // before the camera.
 View make_view(const Camera& camera, const Extent& extent, double aspect);
+
+// Where a point of the world is in the picture: to the right and up from the middle, its sides at ±1; nothing for what
+// is not before the eye.
+struct PicturePlace {
+  double x = 0, y = 0;
+};
+std::optional<PicturePlace> place_in_picture(const View& view, Vec3d point);
 
 // Moves the target so that what is at its depth moves to the right and up by these parts of the picture's height, as if
 // it were held by a pointer.

@@ -134,6 +134,20 @@ TEST(Camera, TurnsAroundItsTarget) {
     }
 }
 
+TEST(Camera, PlacesPointsWhereTheyAreDrawn) {
+  const Extent extent = {{3, -2, 5}, 4, 3, 2};
+  Camera camera;
+  camera.azimuth = 70, camera.elevation = 20;
+  const View view = make_view(camera, extent, 1.5);
+  const Vec3d point = {2, -1, 6}, drawn = project(view, point);
+  const auto place = place_in_picture(view, point);
+  ASSERT_TRUE(place);
+  EXPECT_NEAR(place->x, drawn.x, 1e-12);
+  EXPECT_NEAR(place->y, drawn.y, 1e-12);
+  camera.azimuth = 0, camera.elevation = 0;
+  EXPECT_FALSE(place_in_picture(make_view(camera, {}, 1), {0, 0, 100})) << "behind the eye";
+}
+
 // A quarter of the picture's height is half of normalised device coordinates.
 TEST(Camera, PanningMovesWhatIsAtTheTargetWithThePointer) {
   const Extent extent = {{3, -2, 5}, 4, 3, 2};

@@ -39,12 +39,15 @@ TEST(Pick, FindsWhatIsAtThePointOfWidePictures) {
   Camera camera;
   camera.azimuth = 90, camera.elevation = 0;  // looks along −X: the second ball, at +Z, is at the left
   const View view = make_view(camera, scene_extent(scene), 2);
-  const double x = -3 * view.view_to_clip[0] / 4 / (-view.world_to_view[14] - 0.25);  // of its front, in radii of 4
-  const auto picked = pick_vertex(scene, view, x, 0);
+  const auto front = place_in_picture(view, {1, 0, 3});
+  ASSERT_TRUE(front);
+  EXPECT_LT(front->x, 0);
+  EXPECT_NEAR(front->y, 0, 1e-12);
+  const auto picked = pick_vertex(scene, view, front->x, 0);
   ASSERT_TRUE(picked);
   EXPECT_NEAR(picked->position.x, 1, 0.02);
   EXPECT_NEAR(picked->position.z, 3, 0.15);
-  EXPECT_FALSE(pick_vertex(scene, view, x, 0.95)) << "above it there is nothing";
+  EXPECT_FALSE(pick_vertex(scene, view, front->x, 0.95)) << "above it there is nothing";
 }
 
 }  // namespace

@@ -31,6 +31,8 @@ TEST(Transform, RotationIsCounterClockwiseSeenFromTheTip) {
   expect_near(transform_point(make_rotation({0, 0, 5}, 90), {1, 0, 0}), {0, 1, 0});
   expect_near(transform_point(make_rotation({0, 1, 0}, 90), {0, 0, 1}), {1, 0, 0});
   EXPECT_NEAR(determinant(make_rotation({3, 1, 2}, 123)), 1, kNearlyEqual);
+  const Rotation turned = rotation_zyz(0.4, 1.1, -0.7);
+  expect_near(transform_point(make_rotation(turned), {1, -2, 3}), vec_cast<float>(turned({1, -2, 3})));
 }
 
 // A normal stays perpendicular to the surface and on its outside, whatever the matrix does, mirroring included.

@@ -46,6 +46,15 @@ Mat4f make_rotation(Vec3f axis, float degrees) {
   return m;
 }
 
+Mat4f make_rotation(const Rotation& rotation) {
+  Mat4f m = kIdentity;
+  for (std::size_t row = 0; row < 3; ++row) {
+    const Vec3f r = vec_cast<float>(rotation.rows[row]);
+    m[row] = r.x, m[4 + row] = r.y, m[8 + row] = r.z;
+  }
+  return m;
+}
+
 Mat4f multiply(const Mat4f& a, const Mat4f& b) {
   Mat4f product = {};
   for (int column = 0; column < 4; ++column)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "shlight/scene/scene.h"
+#include "shlight/sh/rotation.h"
 
 namespace shlight {
 
@@ -11,6 +12,7 @@ Mat4f make_translation(Vec3f offset);
 Mat4f make_scaling(Vec3f factors);
 // Counter-clockwise seen from the tip of `axis`, which need not have unit length but must not be zero.
 Mat4f make_rotation(Vec3f axis, float degrees);
+Mat4f make_rotation(const Rotation& rotation);
 
 // First `b`, then `a`.
 Mat4f multiply(const Mat4f& a, const Mat4f& b);
