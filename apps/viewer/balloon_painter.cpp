@@ -1,5 +1,7 @@
 #include "balloon_painter.h"
 
+#include "shlight/scene/transform.h"
+
 namespace shlight::viewer {
 namespace {
 
@@ -18,23 +20,34 @@ RgbCoefficients grey() {
   return light;
 }
 
+// Fills the picture from any side: the smallest ball about the middle of its box, which turns with it.
+Extent frame_of(const Scene& balloon, const Rotation& rotation) {
+  Extent extent = scene_extent(balloon);
+  extent.center = rotation(extent.center);
+  extent.cylinder_radius = extent.half_height = extent.radius;
+  return extent;
+}
+
 }  // namespace
 
 std::shared_ptr<const PictureTarget> BalloonPainter::paint(const std::shared_ptr<const Scene>& balloon,
-                                                           const Camera& camera, int width, int height) {
+                                                           const Rotation& rotation, const Camera& camera, int width,
+                                                           int height) {
   if (!renderer_) {
     renderer_.emplace(IrradianceRenderer(soft_light()));
     background_.emplace(grey());
   }
-  if (balloon_ != balloon) {
-    gpu_scene_.emplace(*balloon);
-    balloon_ = balloon;
+  if (balloon_ != balloon || rotation_.rows != rotation.rows) {
+    Scene turned = *balloon;
+    turned.instances.front().to_world = make_rotation(rotation);
+    gpu_scene_.emplace(turned);
+    balloon_ = balloon, rotation_ = rotation;
   }
   if (!frame_ || frame_->width() != width || frame_->height() != height) frame_.emplace(width, height);
   Camera seen;
   seen.azimuth = camera.azimuth, seen.elevation = camera.elevation, seen.zoom = 1;
-  const Extent ball;  // balloons have radius 1
-  frame_->draw({*gpu_scene_, ball, *renderer_, &*background_, {}}, {seen, {}, 0, ToneCurve::kFilmic});
+  const Drawing drawing = {*gpu_scene_, frame_of(*balloon, rotation), *renderer_, &*background_, {}};
+  frame_->draw(drawing, {seen, {}, 0, ToneCurve::kFilmic});
   const auto target = targets_.free_one(width, height);
   frame_->swap_picture(*target);
   gl::finish();

@@ -13,13 +13,14 @@ class BalloonPainter {
  public:
   explicit BalloonPainter(GlThread& thread) : targets_(thread) {}
 
-  // `balloon` as make_balloon makes it, from where `camera` stands.
-  std::shared_ptr<const PictureTarget> paint(const std::shared_ptr<const Scene>& balloon, const Camera& camera,
-                                             int width, int height);
+  // `balloon` as make_balloon makes it, turned with the light, from the side on which `camera` stands.
+  std::shared_ptr<const PictureTarget> paint(const std::shared_ptr<const Scene>& balloon, const Rotation& rotation,
+                                             const Camera& camera, int width, int height);
 
  private:
   std::shared_ptr<const Scene> balloon_;
-  std::optional<GpuScene> gpu_scene_;  // of that
+  Rotation rotation_;
+  std::optional<GpuScene> gpu_scene_;  // of both
   std::optional<SurfaceRenderer> renderer_;
   std::optional<Background> background_;
   std::optional<FrameRenderer> frame_;

@@ -20,7 +20,8 @@ void Difference::request(const std::string& key, Image test, Image reference) {
         params.threads = worker_threads();
         result->error = measure_error(small_test, small_reference, params);
         const float largest = *std::ranges::max_element(result->error.flip_map.values);
-        result->map = make_heat_map(result->error.flip_map, largest > 0 ? double{largest} : 1.0);
+        if (largest > 0) result->largest = double{largest};
+        result->map = make_heat_map(result->error.flip_map, result->largest);
         result->width = small_test.width, result->height = small_test.height;
         publish(result);
       },

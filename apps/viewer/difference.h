@@ -15,7 +15,8 @@ namespace shlight::viewer {
 class Difference {
  public:
   struct Result {
-    Image8 map;  // FLIP
+    Image8 map;          // FLIP, with a scale beside it
+    double largest = 1;  // at the top of the scale
     ImageError error;
     int width = 0, height = 0;  // of the pictures as they were compared
   };

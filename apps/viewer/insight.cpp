@@ -13,12 +13,20 @@
 #include "shlight/light/window_name.h"
 #include "shlight/render/background.h"
 #include "shlight/scene/balloon.h"
-#include "shlight/scene/pick.h"
 
 namespace shlight::viewer {
 namespace {
 
 constexpr int kMapWidth = 384;
+
+// Where luminance is negative, the colour that balloons have there.
+void mark_negative(const Image& radiance, Image8& picture) {
+  constexpr std::array<std::uint8_t, 3> kMagenta = {200, 32, 150};
+  for (int y = 0; y < radiance.height; ++y)
+    for (int x = 0; x < radiance.width; ++x)
+      if (luminance(radiance.rgb(x, y)) < 0)
+        std::ranges::copy(kMagenta, &picture.values[4 * static_cast<std::size_t>(y * picture.width + x)]);
+}
 
 }  // namespace
 
@@ -59,6 +67,7 @@ void Insight::request_maps(const Subject& subject, const Look& look) {
         const double exposure = auto_exposure(light->drawn.coefficients);
         maps->original = make_picture8(original, exposure);
         maps->reconstructed = make_picture8(reconstructed, exposure);
+        mark_negative(reconstructed, maps->reconstructed);
         maps->balloon = std::make_shared<const Scene>(make_balloon(shaped));
         publish(maps);
       },
@@ -66,13 +75,15 @@ void Insight::request_maps(const Subject& subject, const Look& look) {
 }
 
 // One at a time.
-void Insight::request_balloon(const Camera& camera, int width, int height) {
-  const std::string key = fmt::format("{} {} {} {}", camera.azimuth, camera.elevation, width, height);
+void Insight::request_balloon(const Settings& settings, int width, int height) {
+  const Camera& camera = settings.camera;
+  std::string key = fmt::format("{} {} {} {}", camera.azimuth, camera.elevation, width, height);
+  for (const Vec3d& row : settings.rotate_light.rows) key += fmt::format(" {} {} {}", row.x, row.y, row.z);
   if (!balloon_ || key == balloon_key_ || awaited_balloon_.valid()) return;
   balloon_key_ = key;
-  awaited_balloon_ = thread_->run([painter = balloon_painter_, balloon = balloon_, camera, width, height] {
-    return painter->paint(balloon, camera, width, height);
-  });
+  awaited_balloon_ =
+      thread_->run([painter = balloon_painter_, balloon = balloon_, rotation = settings.rotate_light, camera, width,
+                    height] { return painter->paint(balloon, rotation, camera, width, height); });
 }
 
 bool Insight::take_balloon() {
@@ -91,31 +102,38 @@ bool Insight::busy() const {
 
 void Insight::point(const Subject& subject, const Side& side, const Settings& settings, double x, double y,
                     double aspect) {
-  at_pointer_.reset();
-  const Transfer* transfer = side.transfer();
+  picked_.reset();
   const ModelAsset& model = *subject.model;
-  if (!transfer || transfer->num_vertices() != model.vertices) return;
-  const auto picked = pick_vertex(model.content.scene, make_view(settings.camera, model.extent, aspect), x, y);
-  if (!picked) return;
-  AtPointer at = {picked->vertex, {}, {}};
+  if (!side.transfer() || side.transfer()->num_vertices() != model.vertices) return;
+  picked_ = pick_vertex(model.content.scene, make_view(settings.camera, model.extent, aspect), x, y);
+  picked_model_ = model.key;
+}
+
+std::optional<Insight::AtPointer> Insight::at_pointer(const Subject& subject, const Side& side,
+                                                      const Settings& settings) const {
+  const Transfer* transfer = side.transfer();
+  if (!picked_ || picked_model_ != subject.model->key || !transfer || picked_->vertex >= transfer->num_vertices())
+    return {};
+  AtPointer at = {*picked_, {}, {}};
   const RgbCoefficients light = rotate(settings.rotate_light, resize_bands(side.picture().light, transfer->bands));
   const auto n = static_cast<std::size_t>(num_coefficients(transfer->bands));
   const auto channels = static_cast<std::size_t>(transfer->channels);
   const auto channel = [&](std::size_t c) {
-    return &transfer->coefficients[(picked->vertex * channels + c % channels) * n];
+    return &transfer->coefficients[(picked_->vertex * channels + c % channels) * n];
   };
   for (std::size_t i = 0; i < n; ++i) {
     at.transfer.push_back(double{channel(channels / 2)[i]});
     at.radiance +=
         Rgb{light[i].r * double{channel(0)[i]}, light[i].g * double{channel(1)[i]}, light[i].b * double{channel(2)[i]}};
   }
-  at_pointer_ = std::move(at);
+  return at;
 }
 
-void Insight::request(const Subject& subject, const Look& look, const Camera& camera, int width, int height) {
+void Insight::request(const Subject& subject, const Settings& settings, int balloon_width, int balloon_height) {
+  const Look& look = settings.look();
   request_errors(subject, look);
   request_maps(subject, look);
-  if (width > 0 && height > 0) request_balloon(camera, width, height);
+  if (balloon_width > 0 && balloon_height > 0) request_balloon(settings, balloon_width, balloon_height);
 }
 
 bool Insight::take_news() {

@@ -9,6 +9,7 @@
 #include "balloon_painter.h"
 #include "settings.h"
 #include "shlight/render/targets.h"
+#include "shlight/scene/pick.h"
 #include "shlight/truth/band_error.h"
 #include "side.h"
 #include "task.h"
@@ -24,7 +25,7 @@ class Insight {
   // it works must end, too.
   bool take_news();
   // Once a frame where it is seen.
-  void request(const Subject& subject, const Look& look, const Camera& camera, int width, int height);
+  void request(const Subject& subject, const Settings& settings, int balloon_width, int balloon_height);
 
   // Error and energy by bands; nothing until they are known, or where there is no light.
   const std::optional<BandErrors>& errors() const { return errors_; }
@@ -35,14 +36,17 @@ class Insight {
   const PictureTexture* reconstructed() const { return reconstructed_ ? &*reconstructed_ : nullptr; }
   // The balloon, rows from the bottom; 0 until it is there.
   unsigned balloon() const { return balloon_picture_ ? balloon_picture_->texture() : 0; }
-  // The transfer of the vertex under the pointer, of green where it has colours; empty where there is none.
+  // Chooses the vertex at this place of the picture, or none where there is none or no transfer.
+  void point(const Subject& subject, const Side& side, const Settings& settings, double x, double y, double aspect);
+  bool has_vertex() const { return picked_.has_value(); }
+  // What is baked at the vertex that was chosen, of green where it has colours, and what it makes of the light as it
+  // falls now. Nothing where there is none, or it is another model's.
   struct AtPointer {
-    std::size_t vertex = 0;
+    PickedVertex picked;
     std::vector<double> transfer;
     Rgb radiance;  // of white, in the light's unit
   };
-  void point(const Subject& subject, const Side& side, const Settings& settings, double x, double y, double aspect);
-  const std::optional<AtPointer>& at_pointer() const { return at_pointer_; }
+  std::optional<AtPointer> at_pointer(const Subject& subject, const Side& side, const Settings& settings) const;
   bool busy() const;
 
  private:
@@ -52,7 +56,7 @@ class Insight {
   };
   void request_errors(const Subject& subject, const Look& look);
   void request_maps(const Subject& subject, const Look& look);
-  void request_balloon(const Camera& camera, int width, int height);
+  void request_balloon(const Settings& settings, int width, int height);
   bool take_balloon();
 
   Task<std::shared_ptr<const std::optional<BandErrors>>> error_task_;
@@ -67,7 +71,8 @@ class Insight {
   std::future<std::shared_ptr<const PictureTarget>> awaited_balloon_;
   // Before a picture is drawn into again, the window has drawn a frame without it.
   std::shared_ptr<const PictureTarget> balloon_picture_, previous_balloon_;
-  std::optional<AtPointer> at_pointer_;
+  std::optional<PickedVertex> picked_;
+  std::string picked_model_;
 };
 
 }  // namespace shlight::viewer

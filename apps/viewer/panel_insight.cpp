@@ -13,10 +13,6 @@
 namespace shlight::viewer {
 namespace {
 
-ImTextureID id_of(unsigned texture) {
-  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
-}
-
 void map(const PictureTexture* picture, float width) {
   const float height =
       picture ? width * static_cast<float>(picture->height()) / static_cast<float>(picture->width()) : 0.5f * width;
@@ -50,9 +46,10 @@ void error_chart(const BandErrors& errors, int bands, float height) {
 
 }  // namespace
 
-void insight_panel(Studio& studio, Insight& insight, const Layout& layout) {
+void insight_panel(const Studio& studio, const Insight& insight, const std::optional<Insight::AtPointer>& at_pointer,
+                   const Layout& layout) {
   const Look& look = studio.settings.look();
-  const float chart = 104 * layout.scale;
+  const float chart = 96 * layout.scale;
   if (section("The light, and what the bands keep of it")) {
     const float gap = 6 * layout.scale, width = 0.5f * (ImGui::GetContentRegionAvail().x - gap);
     map(insight.original(), width);
@@ -64,7 +61,7 @@ void insight_panel(Studio& studio, Insight& insight, const Layout& layout) {
   if (section("As a balloon")) {
     if (insight.balloon() != 0) {
       const float width = ImGui::GetContentRegionAvail().x;
-      ImGui::Image(id_of(insight.balloon()), {width, 0.62f * width}, {0, 1}, {1, 0});
+      ImGui::Image(id_of(insight.balloon()), {width, kBalloonAspect * width}, {0, 1}, {1, 0});
       hint("As far away in each direction as the light is bright there; magenta where it is negative");
     }
   }
@@ -80,12 +77,11 @@ void insight_panel(Studio& studio, Insight& insight, const Layout& layout) {
       log_curves("##energy", curves, 0.85f * chart, look.bands - 1);
     }
   }
-  if (const auto& at = insight.at_pointer()) {
-    if (section("Transfer of the vertex under the pointer")) {
-      bars("##transfer", "coefficient", at->transfer, kCool, 0.85f * chart, -1);
-      ImGui::TextDisabled("vertex %zu; white leaves %.3g %.3g %.3g there", at->vertex, at->radiance.r, at->radiance.g,
-                          at->radiance.b);
-    }
+  if (at_pointer && section("Transfer of the vertex under the pointer")) {
+    bars("##transfer", "coefficient", at_pointer->transfer, kCool, 0.85f * chart, -1);
+    const Rgb& white = at_pointer->radiance;
+    ImGui::TextDisabled("vertex %zu; white leaves %.3g %.3g %.3g there", at_pointer->picked.vertex, white.r, white.g,
+                        white.b);
   }
   if (section("Â, what is kept of each degree", false)) {
     std::vector<double> kept;

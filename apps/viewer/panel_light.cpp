@@ -1,10 +1,8 @@
 // Which light falls on it.
 
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include "panels.h"
@@ -17,12 +15,6 @@ namespace {
 
 constexpr const char* kSky = "builtin:sky";
 constexpr const char* kPanelLight = "builtin:panel";
-
-std::string short_name(const std::string& light) {
-  if (light.starts_with("fn:")) return light;
-  if (light.starts_with("builtin:")) return light.substr(0, light.find(':', 8));
-  return std::filesystem::path(light).filename().string();
-}
 
 // The parameters of a built-in light, after "builtin:".
 bool builtin_knobs(std::string& light, const char* name, const std::vector<Knob>& all) {
@@ -53,22 +45,8 @@ void sky_knobs(std::string& light) {
 void light_panel(Studio& studio) {
   if (!section("Light")) return;
   Settings& s = studio.settings;
-  named("light");
-  if (ImGui::BeginCombo("##light", short_name(s.light).c_str(), ImGuiComboFlags_HeightLarge)) {
-    const auto entry = [&](const std::string& path) {
-      if (ImGui::Selectable(fmt::format("{}##{}", short_name(path), path).c_str(), path == s.light)) s.light = path;
-    };
-    for (const char* name : {kSky, "builtin:studio", kPanelLight, "builtin:axes", "builtin:thesis"}) entry(name);
-    const auto list = [&](const char* title, const std::vector<std::string>& paths) {
-      if (paths.empty()) return;
-      ImGui::Separator();
-      ImGui::TextDisabled("%s", title);
-      for (const std::string& path : paths) entry(path);
-    };
-    list("opened lately", studio.recent().lights());
-    list("beside this one", lights_beside(s.light));
-    ImGui::EndCombo();
-  }
+  choice_of_file("light", s.light, {kSky, "builtin:studio", kPanelLight, "builtin:axes", "builtin:thesis"},
+                 studio.recent().lights(), lights_beside);
   hint("Or drop a file on the window: .hdr .exr .dds …, or coefficients (.json)");
   if (studio.loading_light() && (!studio.ready() || studio.subject().light->name != s.light) &&
       !s.light.starts_with("builtin:"))

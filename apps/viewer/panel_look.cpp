@@ -73,8 +73,7 @@ void transfer(Look& look, const Side& side, bool is_baked) {
   if (look.method == Method::kReference || look.transfer == TransferKind::kCosine) return;
   int power = 0;
   while ((1 << power) < look.samples) ++power;
-  named("rays");
-  if (ImGui::SliderInt("##rays", &power, 0, 13, power == 0 ? "auto" : fmt::format("{}", 1 << power).c_str()))
+  if (slider("rays", power, 0, 13, power == 0 ? "auto" : fmt::format("{}", 1 << power).c_str()))
     look.samples = power == 0 ? 0 : 1 << power;
   hint("A vertex; auto takes as many as each needs");
   if (side.transfer() && side.transfer()->estimated_error > 0)

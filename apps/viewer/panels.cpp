@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui/imgui_internal.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <vector>
 
 #include "parameters.h"
@@ -83,7 +85,33 @@ void controls(Studio& studio, const Layout& layout, Wishes& wishes) {
   ImGui::End();
 }
 
+// A slider with its value beside it, where the grab does not cover it. With Ctrl, a click lets one type.
+bool track(const char* name, ImGuiDataType type, void* value, const void* low, const void* high, const char* format,
+           ImGuiSliderFlags flags) {
+  const std::string id = fmt::format("##{}", name);
+  const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
+  ImGui::BeginGroup();  // hints are for both
+  ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - 3.6f * ImGui::GetFontSize(), 1.0f));
+  // The slider writes its value into its middle, where only what is typed is wanted.
+  const bool typing = ImGui::TempInputIsActive(ImGui::GetID(id.c_str()));
+  ImGui::PushStyleColor(ImGuiCol_Text, typing ? kInk : ImVec4{0, 0, 0, 0});
+  const bool changed =
+      ImGui::SliderScalar(id.c_str(), type, value, low, high, format, ImGuiSliderFlags_AlwaysClamp | flags);
+  ImGui::PopStyleColor();
+  std::array<char, 32> text = {};
+  ImGui::DataTypeFormatString(text.data(), static_cast<int>(text.size()), type, value, format);
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(right - ImGui::CalcTextSize(text.data()).x);
+  ImGui::TextUnformatted(text.data());
+  ImGui::EndGroup();
+  return changed;
+}
+
 }  // namespace
+
+ImTextureID id_of(unsigned texture) {
+  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+}
 
 void begin_overlay(const char* name, ImVec2 at, ImVec2 pivot, ImGuiWindowFlags more) {
   constexpr ImGuiWindowFlags kOverlay = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
@@ -108,14 +136,18 @@ Layout make_layout(const Settings& settings, int width, int height, double scale
   return layout;
 }
 
-void draw_panels(Studio& studio, Insight& insight, const FrameTimes& times, const Layout& layout, Wishes& wishes) {
-  viewport(studio, layout);
+void draw_panels(Studio& studio, const Insight& insight, const FrameTimes& times, const Layout& layout,
+                 Wishes& wishes) {
+  std::optional<Insight::AtPointer> at_pointer;
+  if (layout.right > 0 && studio.ready())
+    at_pointer = insight.at_pointer(studio.subject(), studio.side(studio.settings.side), studio.settings);
+  viewport(studio, at_pointer, layout);
   if (layout.left > 0) controls(studio, layout, wishes);
   if (layout.right > 0) {
     ImGui::SetNextWindowPos({layout.width - layout.right, 0});
     ImGui::SetNextWindowSize({layout.right, layout.height});
     ImGui::Begin("insight", nullptr, kPanel & ~ImGuiWindowFlags_NoScrollbar);
-    insight_panel(studio, insight, layout);
+    insight_panel(studio, insight, at_pointer, layout);
     ImGui::End();
   }
   if (studio.settings.timing) timing_panel(studio, times, layout);
@@ -149,13 +181,12 @@ void hint(const char* text) {
 
 bool slider(const char* name, double& value, double low, double high, const char* format, bool logarithmic) {
   named(name);
-  return ImGui::SliderScalar(fmt::format("##{}", name).c_str(), ImGuiDataType_Double, &value, &low, &high, format,
-                             ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0));
+  return track(name, ImGuiDataType_Double, &value, &low, &high, format, logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
 }
 
-bool slider(const char* name, int& value, int low, int high) {
+bool slider(const char* name, int& value, int low, int high, const char* format) {
   named(name);
-  return ImGui::SliderInt(fmt::format("##{}", name).c_str(), &value, low, high, "%d", ImGuiSliderFlags_AlwaysClamp);
+  return track(name, ImGuiDataType_S32, &value, &low, &high, format, 0);
 }
 
 bool choice(const char* name, std::string& value, const std::vector<std::string>& words) {
@@ -166,6 +197,44 @@ bool choice(const char* name, std::string& value, const std::vector<std::string>
     if (ImGui::Selectable(word.c_str(), word == value)) value = word, changed = true;
   ImGui::EndCombo();
   return changed;
+}
+
+namespace {
+
+std::string short_name(const std::string& path) {
+  if (path.starts_with("fn:")) return path;
+  if (path.starts_with("builtin:")) return path.substr(0, path.find(':', 8));
+  return std::filesystem::path(path).filename().string();
+}
+
+}  // namespace
+
+void choice_of_file(const char* name, std::string& path, std::initializer_list<const char*> builtin,
+                    const std::vector<std::string>& recent,
+                    std::vector<std::string> (*files_beside)(const std::string& path)) {
+  named(name);
+  if (!ImGui::BeginCombo(fmt::format("##{}", name).c_str(), short_name(path).c_str(), ImGuiComboFlags_HeightLarge))
+    return;
+  const std::string present = path;
+  const auto entry = [&](const std::string& other) {
+    const std::string text = short_name(other);
+    // A built-in light is itself whatever its parameters are.
+    const bool is_present = other == present || (other == text && text == short_name(present));
+    if (ImGui::Selectable(fmt::format("{}##{}", text, other).c_str(), is_present)) path = other;
+    if (text != other) hint(other.c_str());
+  };
+  const auto list = [&](const char* title, const std::vector<std::string>& paths) {
+    if (paths.empty()) return;
+    ImGui::Separator();
+    ImGui::TextDisabled("%s", title);
+    ImGui::PushID(title);  // a file may be in both lists
+    for (const std::string& other : paths) entry(other);
+    ImGui::PopID();
+  };
+  for (const char* other : builtin) entry(other);
+  list("opened lately", recent);
+  list("beside this one", files_beside(present));
+  ImGui::EndCombo();
 }
 
 namespace {

@@ -52,6 +52,7 @@ struct Settings {
 
   Settings();
   Look& look() { return looks[static_cast<std::size_t>(side)]; }
+  const Look& look() const { return looks[static_cast<std::size_t>(side)]; }
   // Whether a side is seen.
   bool shows(int which) const { return compare == Compare::kOne ? which == side : true; }
 };

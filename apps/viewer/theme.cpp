@@ -59,8 +59,8 @@ void set_colors(ImGuiStyle& style) {
   c[ImGuiCol_ButtonHovered] = field_hovered;
   c[ImGuiCol_ButtonActive] = field_active;
   c[ImGuiCol_CheckMark] = kAccent;
-  c[ImGuiCol_SliderGrab] = with_alpha(kAccent, 0.3f);
-  c[ImGuiCol_SliderGrabActive] = with_alpha(kAccent, 0.45f);
+  c[ImGuiCol_SliderGrab] = with_alpha(kAccent, 0.6f);
+  c[ImGuiCol_SliderGrabActive] = with_alpha(kAccent, 0.9f);
   c[ImGuiCol_Separator] = {1, 1, 1, 0.07f};
   c[ImGuiCol_ScrollbarBg] = {0, 0, 0, 0};
   c[ImGuiCol_ScrollbarGrab] = {1, 1, 1, 0.12f};

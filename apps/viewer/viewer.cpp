@@ -89,8 +89,8 @@ class Viewer {
     changed = insight_.take_news() || changed;
     if (layout.right > 0 && studio_.ready()) {
       const auto balloon = static_cast<int>(layout.right - 28 * layout.scale);
-      insight_.request(studio_.subject(), studio_.settings.look(), studio_.settings.camera, balloon,
-                       static_cast<int>(0.62 * balloon));
+      insight_.request(studio_.subject(), studio_.settings, balloon,
+                       static_cast<int>(kBalloonAspect * static_cast<float>(balloon)));
     }
     set_title();
     const auto before_panels = Clock::now();
@@ -125,14 +125,14 @@ class Viewer {
     title_ = std::move(title);
   }
 
-  // Tells what the pointer is over.
+  // Tells what the pointer is over. While it turns something, that stays what it was.
   void point_out(const Layout& layout) {
     if (layout.right <= 0 || !studio_.ready()) return;
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const double width = std::max(layout.picture_width(), 1.0f), height = layout.height;
     const double x = 2 * (mouse.x - layout.left) / width - 1, y = 1 - 2 * mouse.y / height;
     const ImVec2 moved = ImGui::GetIO().MouseDelta;
-    if (moved.x == 0 && moved.y == 0 && insight_.at_pointer()) return;
+    if (moved.x == 0 && moved.y == 0 && insight_.has_vertex()) return;
     if (ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1) || std::abs(x) > 1 || std::abs(y) > 1) return;
     insight_.point(studio_.subject(), studio_.side(studio_.settings.side), studio_.settings, x, y, width / height);
   }
@@ -182,8 +182,7 @@ class Viewer {
 
   std::string command() const {
     const Settings& s = studio_.settings;
-    return render_command(s, s.looks[static_cast<std::size_t>(s.side)], studio_.width(), studio_.height(),
-                          studio_.side(s.side).traced_samples());
+    return render_command(s, s.look(), studio_.width(), studio_.height(), studio_.side(s.side).traced_samples());
   }
 
   // The first of shlight-1.png, shlight-2.png, … that is not there.

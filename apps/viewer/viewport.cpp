@@ -8,14 +8,12 @@
 
 #include "navigation.h"
 #include "panels.h"
+#include "shlight/image/tone_map.h"
+#include "shlight/truth/heat_map.h"
 #include "theme.h"
 
 namespace shlight::viewer {
 namespace {
-
-ImTextureID id_of(unsigned texture) {
-  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
-}
 
 struct Rect {
   ImVec2 min, max;
@@ -35,6 +33,8 @@ std::string describe(const Look& look) {
   return text;
 }
 
+const ImVec4 kLabel = {0.07f, 0.075f, 0.085f, 0.72f};  // what words on the picture stand on
+
 enum class Corner { kTopLeft, kBottomRight };
 
 // A label on the picture: a name, what goes on, and how far that is; in lines where it is too wide for one. Returns
@@ -52,7 +52,7 @@ float label(const std::string& text, const Side& side, const Rect& picture, Corn
     draw.AddText(nullptr, 0, at, ImGui::GetColorU32(color), words.c_str(), nullptr, widest);
   };
   const ImVec2 name = size_of(text), news = activity.empty() ? ImVec2{} : size_of(activity);
-  const bool beside = name.x + gap + news.x <= widest;
+  const bool beside = text.find('\n') == std::string::npos && name.x + gap + news.x <= widest;
   const ImVec2 inside = beside ? ImVec2{name.x + gap + news.x, std::max(name.y, news.y)}
                                : ImVec2{std::max(name.x, news.x), name.y + news.y};
   const ImVec2 size = {inside.x + 2 * pad, inside.y + 1.2f * pad};
@@ -60,7 +60,7 @@ float label(const std::string& text, const Side& side, const Rect& picture, Corn
                          ? ImVec2{picture.min.x + margin, picture.min.y + margin}
                          : ImVec2{picture.max.x - margin - size.x, picture.max.y - margin - size.y};
   const ImVec2 max = {min.x + size.x, min.y + size.y};
-  draw.AddRectFilled(min, max, ImGui::GetColorU32({0.07f, 0.075f, 0.085f, 0.72f}), 6 * scale);
+  draw.AddRectFilled(min, max, ImGui::GetColorU32(kLabel), 6 * scale);
   const ImVec2 first = {min.x + pad, min.y + 0.6f * pad};
   write(text, first, kInk);
   if (activity.empty()) return max.y;
@@ -83,8 +83,7 @@ float draw_pictures(const Studio& studio, const Rect& rect, float scale) {
   };
   if (s.compare == Compare::kOne) {
     picture(s.side, 0, 1);
-    return label(describe(s.looks[static_cast<std::size_t>(s.side)]), studio.side(s.side), rect, Corner::kTopLeft,
-                 scale);
+    return label(describe(s.look()), studio.side(s.side), rect, Corner::kTopLeft, scale);
   }
   const auto divider = static_cast<float>(s.divider);
   picture(0, 0, divider);
@@ -97,22 +96,64 @@ float draw_pictures(const Studio& studio, const Rect& rect, float scale) {
   return label("A  " + describe(s.looks[0]), studio.side(0), rect, Corner::kTopLeft, scale);
 }
 
-// The same.
+ImU32 heat(double t) {
+  const Rgb linear = heat_color(t);
+  const auto byte = [](double v) { return static_cast<int>(std::lround(255 * std::clamp(encode_srgb(v), 0.0, 1.0))); };
+  return IM_COL32(byte(linear.r), byte(linear.g), byte(linear.b), 255);
+}
+
+// What the colours of the map mean, from 0 to `largest`, in the corner at the bottom right.
+void heat_scale(double largest, const Rect& picture, float scale) {
+  constexpr int kSteps = 4, kPieces = 32;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float margin = 12 * scale, pad = 10 * scale, bar = 10 * scale, tick = 4 * scale;
+  const float line = ImGui::GetTextLineHeight(), numbers = ImGui::CalcTextSize("0.000").x;
+  const float height = std::min(180 * scale, picture.height() - 2 * margin - 2 * pad);
+  if (height < 3 * line) return;
+  const ImVec2 max = {picture.max.x - margin, picture.max.y - margin};
+  const ImVec2 min = {max.x - 2 * pad - bar - 2 * tick - numbers, max.y - 2 * pad - height};
+  draw.AddRectFilled(min, max, ImGui::GetColorU32(kLabel), 6 * scale);
+  const float left = min.x + pad, bottom = max.y - pad - 0.5f * line, length = height - line;
+  for (int i = 0; i < kPieces; ++i) {
+    const auto y_of = [&](int piece) { return bottom - length * static_cast<float>(piece) / kPieces; };
+    const ImU32 low = heat(static_cast<double>(i) / kPieces), high = heat((i + 1.0) / kPieces);
+    draw.AddRectFilledMultiColor({left, y_of(i + 1)}, {left + bar, y_of(i)}, high, high, low, low);
+  }
+  for (int i = 0; i <= kSteps; ++i) {
+    const float y = bottom - length * static_cast<float>(i) / kSteps;
+    draw.AddLine({left + bar, y}, {left + bar + tick, y}, ImGui::GetColorU32(kFaint));
+    draw.AddText({left + bar + 2 * tick, y - 0.5f * line}, ImGui::GetColorU32(kInk),
+                 fmt::format("{:.2g}", largest * i / kSteps).c_str());
+  }
+}
+
+// The same. The map lies where the pictures are.
 float draw_difference(const Studio& studio, const Rect& rect, float scale) {
+  const Settings& s = studio.settings;
   const Difference::Result& result = *studio.difference().result();
   const PictureTexture& map = *studio.difference().texture();
   const ImageError& e = result.error;
-  const float top =
-      label(fmt::format("FLIP {:.4f}   off by {:.3g} % (root mean square)   SSIM {:.4f}   at {} x {} pixels", e.flip,
-                        100 * e.relative, e.ssim, result.width, result.height),
-            studio.side(1), rect, Corner::kTopLeft, scale);
-  const Rect below = {{rect.min.x, std::min(top + 4 * scale, rect.max.y)}, rect.max};
-  const auto width = static_cast<float>(map.width()), height = static_cast<float>(map.height());
-  const float zoom = std::min(below.width() / width, below.height() / height);
-  const ImVec2 min = {below.min.x + 0.5f * (below.width() - zoom * width),
-                      below.min.y + 0.5f * (below.height() - zoom * height)};
-  ImGui::GetWindowDrawList()->AddImage(id_of(map.texture()), min, {min.x + zoom * width, min.y + zoom * height});
-  return top;
+  // Beside the map the texture has a scale of pictures' small letters.
+  const ImVec2 end = {static_cast<float>(result.width) / static_cast<float>(map.width()),
+                      static_cast<float>(result.height) / static_cast<float>(map.height())};
+  ImGui::GetWindowDrawList()->AddImage(id_of(map.texture()), rect.min, rect.max, {0, 0}, end);
+  heat_scale(result.largest, rect, scale);
+  return label(fmt::format("A  {}\nB  {}\nFLIP {:.4f}   off by {:.3g} % (root mean square)   SSIM {:.4f}",
+                           describe(s.looks[0]), describe(s.looks[1]), e.flip, 100 * e.relative, e.ssim),
+               studio.side(1), rect, Corner::kTopLeft, scale);
+}
+
+// A ring around the vertex whose transfer is told.
+void mark_vertex(const Studio& studio, Vec3d position, const Rect& rect, float scale) {
+  const View view =
+      make_view(studio.settings.camera, studio.subject().model->extent, rect.width() / std::max(rect.height(), 1.0f));
+  const auto place = place_in_picture(view, position);
+  if (!place || std::abs(place->x) > 1 || std::abs(place->y) > 1) return;
+  const ImVec2 at = {rect.min.x + static_cast<float>(0.5 + 0.5 * place->x) * rect.width(),
+                     rect.min.y + static_cast<float>(0.5 - 0.5 * place->y) * rect.height()};
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddCircle(at, 5 * scale, ImGui::GetColorU32({0, 0, 0, 0.6f}), 20, 4 * scale);
+  draw.AddCircle(at, 5 * scale, ImGui::GetColorU32(kCool), 20, 2 * scale);
 }
 
 void navigate(Studio& studio, const Rect& rect, float scale) {
@@ -149,7 +190,7 @@ void navigate(Studio& studio, const Rect& rect, float scale) {
 
 }  // namespace
 
-void viewport(Studio& studio, const Layout& layout) {
+void viewport(Studio& studio, const std::optional<Insight::AtPointer>& at_pointer, const Layout& layout) {
   const Rect rect = {{layout.left, 0}, {layout.width - layout.right, layout.height}};
   ImGui::SetNextWindowPos(rect.min);
   ImGui::SetNextWindowSize({std::max(rect.width(), 1.0f), std::max(rect.height(), 1.0f)});
@@ -166,6 +207,7 @@ void viewport(Studio& studio, const Layout& layout) {
     top = draw_difference(studio, rect, layout.scale);
   else if (studio.ready())
     top = draw_pictures(studio, rect, layout.scale);
+  if (at_pointer) mark_vertex(studio, at_pointer->picked.position, rect, layout.scale);
   if (studio.side(studio.settings.side).can_cancel()) {
     ImGui::SetCursorScreenPos({rect.min.x + 12 * layout.scale, top + 6 * layout.scale});
     if (ImGui::SmallButton("stop")) studio.side(studio.settings.side).cancel();
