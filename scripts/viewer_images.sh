@@ -7,14 +7,19 @@ shlight=${SHLIGHT:-$PWD/build/release/bin/shlight}
 images=$PWD/docs/images/viewer
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$images"
+mkdir -p "$images" "$work/files"
 
-# shot NAME [ARGUMENT…] <SCRIPT
+# drive [ARGUMENT…] <SCRIPT
+drive() {
+  cat >"$work/script"
+  (cd "$work/files" && xvfb-run -a -s "-screen 0 1280x800x24 +extension GLX" "$shlight" view "$@" --script "$work/script")
+}
+
+# shot NAME [ARGUMENT…] <SCRIPT: and a picture in the end.
 shot() {
   local name=$1
   shift
-  { cat; printf '\nwait 64\nscreenshot %s\n' "$images/$name.png"; } >"$work/$name"
-  xvfb-run -a -s "-screen 0 1280x800x24 +extension GLX" "$shlight" view "$@" --script "$work/$name"
+  { cat; printf '\nwait 64\nscreenshot %s\n' "$images/$name.png"; } | drive "$@"
   echo "$images/$name.png"
 }
 
@@ -41,6 +46,19 @@ set show normals
 set side a
 END
 
+# The section of Â is opened; that of the energies gives it room.
+shot vertex builtin:scene --light builtin:sky:elevation=30,azimuth=-60 <<'END'
+set transfer interreflected
+set insight on
+set camera 30,14,1.15
+wait
+click 975 550
+frames 2
+click 975 738
+frames 2
+click 560 500
+END
+
 shot visibility builtin:scene <<'END'
 set show visibility
 set timing on
@@ -59,6 +77,32 @@ set bands 5
 set window none
 set material ggx:alpha=0.15,f0=0.9/0.65/0.3
 set camera 20,12,1.15
+END
+
+# Lights to choose from, and one that cannot be read.
+for light in studio axes thesis; do
+  "$shlight" convert-map "builtin:$light" --size 512 -o "$work/files/$light.hdr"
+done
+"$shlight" project builtin:sky --bands 5 -o "$work/files/sky_5_bands.json"
+head -c 3000 "$work/files/axes.hdr" >"$work/files/torn.hdr"
+shot files builtin:scene --light axes.hdr <<'END'
+wait
+open thesis.hdr
+wait
+open studio.hdr
+wait
+open torn.hdr
+wait
+click 190 133
+END
+
+# What is seen while a bake goes on.
+drive builtin:scene --light builtin:studio <<END
+set transfer interreflected
+set samples 2048
+set camera -20,14,1.1
+frames 700
+screenshot $images/bake.png
 END
 
 # Both of one reference.
