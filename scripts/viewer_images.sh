@@ -25,11 +25,14 @@ shot() {
 
 shot first </dev/null
 
+# The section of Â is opened.
 shot insight builtin:sphere --light builtin:sky:elevation=20,azimuth=-60 <<'END'
 set method irradiance
 set bands 3
 set window none
 set insight on
+wait
+click 975 632
 END
 
 shot degree builtin:sphere --light builtin:studio <<'END'
@@ -46,16 +49,11 @@ set show normals
 set side a
 END
 
-# The section of Â is opened; that of the energies gives it room.
 shot vertex builtin:scene --light builtin:sky:elevation=30,azimuth=-60 <<'END'
 set transfer interreflected
 set insight on
 set camera 30,14,1.15
 wait
-click 975 550
-frames 2
-click 975 738
-frames 2
 click 560 500
 END
 
